@@ -1,0 +1,46 @@
+#include "renderer/base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+#include <memory>
+
+namespace parian {
+namespace {
+
+// The limit is a property of the process, as oneTBB's own pool is.
+struct ThreadLimit {
+  int threads = hardware_threads();
+  std::unique_ptr<tbb::global_control> control;
+};
+
+ThreadLimit& limit() {
+  static ThreadLimit instance;
+  return instance;
+}
+
+}  // namespace
+
+int hardware_threads() { return tbb::info::default_concurrency(); }
+
+void set_thread_count(int threads) {
+  limit().control.reset();
+  limit().control =
+      std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+  limit().threads = threads;
+}
+
+int thread_count() { return limit().threads; }
+
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, grain),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace parian

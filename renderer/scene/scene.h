@@ -1,0 +1,184 @@
+/// The scene as plain data: structs and indices, no pointers between them. A Scene can be copied (cheaply: arrays
+/// are shared), compared, edited and written back. It follows glTF 2.0: right-handed, y up, metres, radians,
+/// linear Rec.709 colours, cameras and lights looking along -z.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/base/math.h"
+#include "renderer/base/shared_array.h"
+
+namespace parian {
+
+/// Where an index may be absent.
+inline constexpr int kNone = -1;
+
+enum class PixelType : std::uint8_t { u8, u16, f16, f32 };
+
+/// A decoded picture at its file's own bit depth; 1 to 4 channels, interleaved, row 0 at the top (v = 0).
+struct Image {
+  std::string name;  // for messages: its file name, or image N of a file
+  int width = 0, height = 0, channels = 0;
+  PixelType type = PixelType::u8;
+  SharedArray<std::byte> pixels;
+  bool operator==(const Image&) const = default;
+};
+
+enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
+enum class Filter : std::uint8_t { nearest, linear };
+
+/// An image with its sampler.
+struct Texture {
+  int image = kNone;
+  Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+  Filter filter = Filter::linear;
+  bool operator==(const Texture&) const = default;
+};
+
+/// One use of a texture by a material.
+struct TextureRef {
+  int texture = kNone;
+  int uv_set = 0;  // 0 or 1
+  // KHR_texture_transform as an affine map: u' = a u + b v + c; v' = d u + e v + f.
+  std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+  bool operator==(const TextureRef&) const = default;
+  explicit operator bool() const { return texture != kNone; }
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// glTF's metallic-roughness material. Colours are linear; a texture multiplies its factor.
+struct Material {
+  std::string name;
+  Rgb base_color{1, 1, 1};
+  float alpha = 1;
+  TextureRef base_color_texture;  // sRGB colour, linear alpha
+  float metallic = 1, roughness = 1;
+  TextureRef metallic_roughness_texture;  // linear: roughness in G, metallic in B
+  TextureRef normal_texture;              // linear, tangent space
+  float normal_scale = 1;
+  Rgb emission{0, 0, 0};        // radiance: emissiveFactor times emissiveStrength
+  TextureRef emission_texture;  // sRGB
+  float ior = 1.5f;             // KHR_materials_ior; 0 means infinite (F0 = 1)
+  float specular = 1;           // KHR_materials_specular; 0 leaves a pure Lambert surface
+  Rgb specular_color{1, 1, 1};
+  TextureRef specular_texture;        // linear, in A
+  TextureRef specular_color_texture;  // sRGB
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  bool unlit = false;  // KHR_materials_unlit: base colour is what is seen, no light transport
+  bool operator==(const Material&) const = default;
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Triangles of one material. Arrays other than positions and triangles may be empty; otherwise they hold one
+/// element per vertex. Counter-clockwise is the front.
+struct Primitive {
+  SharedArray<Vec3f> positions;
+  SharedArray<Vec3f> normals;   // unit; empty: flat, from the triangle
+  SharedArray<Vec4f> tangents;  // xyz unit, w the sign of the bitangent; empty: from the uv set of the normal map
+  std::array<SharedArray<Vec2f>, 2> uvs;
+  SharedArray<Vec4f> colors;  // linear, multiplies base colour and alpha
+  SharedArray<Triangle> triangles;
+  int material = kNone;
+  bool operator==(const Primitive&) const = default;
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+  bool operator==(const Mesh&) const = default;
+};
+
+/// EXT_camera_physical. The lens is a disk of radius focal_length / (2 f_stop), focused on the plane at
+/// focus_distance; metres.
+struct Lens {
+  float focal_length = 0.05f, f_stop = 2.8f, focus_distance = 1;
+  std::array<float, 2> sensor_size{0.036f, 0.024f};
+  bool operator==(const Lens&) const = default;
+};
+
+enum class Projection : std::uint8_t { perspective, orthographic };
+
+struct Camera {
+  std::string name;
+  Projection projection = Projection::perspective;
+  float yfov = 0.8f;               // perspective: full vertical angle
+  float aspect = 0;                // perspective: width / height; 0: that of the image
+  float xmag = 1, ymag = 1;        // orthographic: half width and half height
+  float znear = 0.01f, zfar = 0;   // kept for other viewers: a ray tracer has no depth buffer and clips nothing
+  std::optional<Lens> lens;        // absent: a pinhole
+  bool operator==(const Camera&) const = default;
+};
+
+enum class LightKind : std::uint8_t { point, spot, directional, rectangle, disk };
+
+/// A light without a mesh. It sits at its node's origin and shines along -z (all kinds but point).
+struct Light {
+  std::string name;
+  LightKind kind = LightKind::point;
+  Rgb color{1, 1, 1};
+  float intensity = 1;  // point, spot: W/sr; directional: W/m^2; rectangle, disk: radiance, from the -z side
+  float range = 0;      // punctual: glTF's cut-off distance; 0: none
+  float inner_angle = 0, outer_angle = kPi / 4;  // spot: half angles
+  float width = 1, height = 1;                   // rectangle: full sides; disk: width is the diameter
+  bool operator==(const Light&) const = default;
+};
+
+/// Translation, rotation, scale; or a matrix where the file gives one.
+struct Transform {
+  Vec3f translation{0, 0, 0};
+  Quatf rotation{1, 0, 0, 0};
+  Vec3f scale{1, 1, 1};
+  std::optional<Imath::M44f> matrix;
+  Mat4d to_matrix() const;
+  bool operator==(const Transform&) const = default;
+};
+
+struct Node {
+  std::string name;
+  Transform transform;
+  std::vector<int> children;
+  int mesh = kNone, camera = kNone, light = kNone;
+  std::vector<Transform> instances;  // EXT_mesh_gpu_instancing: if not empty, the mesh is drawn once for each
+  bool operator==(const Node&) const = default;
+};
+
+/// What a ray that hits nothing sees: radiance, times an equirectangular image where there is one.
+/// Image u grows with the angle from -x over -z, +x, +z (EXT_lights_environment: the centre is +x), top row is +y.
+struct Environment {
+  Rgb radiance{0, 0, 0};
+  int image = kNone;
+  Quatf rotation{1, 0, 0, 0};  // turns the environment: world direction = rotation (environment direction)
+  bool operator==(const Environment&) const = default;
+};
+
+struct Scene {
+  std::vector<Node> nodes;
+  std::vector<int> roots;
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Image> images;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  Environment environment;
+  bool operator==(const Scene&) const = default;
+};
+
+/// Adds the content of `other` to `scene`, its indices shifted. An environment replaces one that is black.
+void append(Scene& scene, const Scene& other);
+
+/// Checks what the renderer relies on: every index in range (a primitive's material included), the node graph a
+/// forest, arrays of matching length, numbers finite and in range. Throws InputError naming `file` and the place,
+/// as a path like /meshes/2/primitives/0/triangles/17.
+void validate(const Scene& scene, const std::string& file);
+
+}  // namespace parian
