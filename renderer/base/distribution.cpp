@@ -1,0 +1,54 @@
+#include "renderer/base/distribution.h"
+
+#include <algorithm>
+
+#include "renderer/base/parallel.h"
+
+namespace parian {
+
+Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.size() + 1) {
+  for (float w : weights) total_ += w;
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += total_ > 0 ? weights[i] / total_ : 1.0 / double(weights.size());
+    cdf_[i + 1] = float(std::min(sum, 1.0));
+  }
+  // Rounding must not leave a gap below 1; it goes to the last index that has any weight.
+  for (std::size_t i = weights.size(); i > 0; --i) {
+    cdf_[i] = 1;
+    if (total_ == 0 || weights[i - 1] > 0) break;
+  }
+}
+
+Distribution1D::Sample Distribution1D::sample(float u) const {
+  const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
+  const int i = std::clamp(int(above - cdf_.begin()) - 1, 0, size() - 1);
+  const float p = probability(i);
+  return {i, p, std::clamp((u - cdf_[i]) / p, 0.0f, 0x1.fffffep-1f)};
+}
+
+Distribution2D::Distribution2D(int nx, int ny, const std::function<float(int, int)>& weight)
+    : nx_(nx), ny_(ny), columns_(ny) {
+  parallel_for(std::size_t(ny), 8, [&](std::size_t y) {
+    std::vector<float> row(nx);
+    for (int x = 0; x < nx; ++x) row[x] = weight(x, int(y));
+    columns_[y] = Distribution1D(row);
+  });
+  std::vector<float> sums(ny);
+  for (int y = 0; y < ny; ++y) sums[y] = float(columns_[y].total());
+  rows_ = Distribution1D(sums);
+}
+
+float Distribution2D::pdf(const Vec2f& p) const {
+  const int x = std::clamp(int(p.x * float(nx_)), 0, nx_ - 1), y = std::clamp(int(p.y * float(ny_)), 0, ny_ - 1);
+  return rows_.probability(y) * columns_[y].probability(x) * float(nx_) * float(ny_);
+}
+
+Distribution2D::Sample Distribution2D::sample(const Vec2f& u) const {
+  const Distribution1D::Sample row = rows_.sample(u.y), column = columns_[row.index].sample(u.x);
+  const Vec2f p((float(column.index) + column.remainder) / float(nx_),
+                (float(row.index) + row.remainder) / float(ny_));
+  return {p, row.probability * column.probability * float(nx_) * float(ny_)};
+}
+
+}  // namespace parian

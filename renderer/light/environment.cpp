@@ -1,0 +1,76 @@
+#include "renderer/light/environment.h"
+
+#include "renderer/base/sampling.h"
+#include "renderer/scene/texture.h"
+
+namespace parian {
+namespace {
+
+Affine to_affine(const Quatf& q) {
+  return {q.rotateVector({1, 0, 0}), q.rotateVector({0, 1, 0}), q.rotateVector({0, 0, 1}), {0, 0, 0}};
+}
+
+/// Mean luminance of the bilinear lookup over the cell of texel (x, y): its neighbours count 1/8 along each axis.
+/// The sampling density then covers all that a bright texel spreads to.
+float cell_luminance(const Image& image, int x, int y) {
+  const float weight[3] = {0.125f, 0.75f, 0.125f};
+  float sum = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      const Vec4f c = texel(image, (x + i + image.width) % image.width, std::clamp(y + j, 0, image.height - 1),
+                            ColorSpace::srgb);
+      sum += weight[i + 1] * weight[j + 1] * luminance({std::max(c.x, 0.0f), std::max(c.y, 0.0f), std::max(c.z, 0.0f)});
+    }
+  return sum;
+}
+
+}  // namespace
+
+EnvironmentLight::EnvironmentLight(const Scene& scene) {
+  const Environment& environment = scene.environment;
+  if (is_black(environment.radiance)) return;
+  scene_ = &scene;
+  radiance_ = environment.radiance;
+  rotation_ = to_affine(environment.rotation);
+  mean_luminance_ = luminance(radiance_);
+  texture_ = {environment.image, Wrap::repeat, Wrap::clamp_to_edge, Filter::linear};
+  if (environment.image == kNone) return;
+  const Image& image = scene.images[environment.image];
+  distribution_ = Distribution2D(image.width, image.height, [&](int x, int y) {
+    return cell_luminance(image, x, y) * std::sin(kPi * (float(y) + 0.5f) / float(image.height));
+  });
+  // Mean over the sphere: each cell covers 2 pi^2 sin(theta) / (width height) of 4 pi.
+  mean_luminance_ *= float(distribution_.total() * kPi / 2 / (double(image.width) * image.height));
+}
+
+Vec2f EnvironmentLight::to_uv(const Vec3f& d) const {
+  const Vec3f local(rotation_.x.dot(d), rotation_.y.dot(d), rotation_.z.dot(d));
+  return {0.5f + std::atan2(local.z, local.x) * (0.5f * kInvPi), std::acos(std::clamp(local.y, -1.0f, 1.0f)) * kInvPi};
+}
+
+Rgb EnvironmentLight::eval(const Vec3f& d) const {
+  if (!scene_ || texture_.image == kNone) return radiance_;
+  const Vec4f c = eval_texture(*scene_, texture_, to_uv(d), ColorSpace::srgb);
+  return radiance_ * Rgb(std::max(c.x, 0.0f), std::max(c.y, 0.0f), std::max(c.z, 0.0f));
+}
+
+Vec3f EnvironmentLight::sample(const Vec2f& u, float& pdf) const {
+  if (texture_.image == kNone) {
+    pdf = 0.25f * kInvPi;
+    return sample_sphere(u);
+  }
+  const Distribution2D::Sample s = distribution_.sample(u);
+  const float phi = 2 * kPi * (s.p.x - 0.5f), theta = kPi * s.p.y;
+  const float sin_theta = std::sin(theta);
+  pdf = sin_theta > 0 ? s.pdf / (2 * kPi * kPi * sin_theta) : 0;
+  return rotation_.vector({sin_theta * std::cos(phi), std::cos(theta), sin_theta * std::sin(phi)});
+}
+
+float EnvironmentLight::pdf(const Vec3f& d) const {
+  if (texture_.image == kNone) return 0.25f * kInvPi;
+  const Vec2f uv = to_uv(d);
+  const float sin_theta = std::sin(kPi * uv.y);
+  return sin_theta > 0 ? distribution_.pdf({uv.x - std::floor(uv.x), uv.y}) / (2 * kPi * kPi * sin_theta) : 0;
+}
+
+}  // namespace parian

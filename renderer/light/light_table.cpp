@@ -1,0 +1,195 @@
+#include "renderer/light/light_table.h"
+
+#include "renderer/base/sampling.h"
+
+namespace parian {
+namespace {
+
+// A float in [0, 1) has 24 bits. Up to this many lights one number serves for the choice and, rescaled, for the point.
+constexpr int kMaxLightsForOneNumber = 64;
+
+LightSample area_sample(const Vec3f& p, const Vec3f& point, const Vec3f& normal, float offset, float area) {
+  const Vec3f to_light = point - p;
+  const float distance2 = to_light.dot(to_light);
+  LightSample s;
+  s.wi = to_light * (1 / std::sqrt(distance2));
+  s.pdf = distance2 / (area * std::abs(s.wi.dot(normal)));
+  s.delta = s.at_infinity = false;
+  s.target = point + normal * (s.wi.dot(normal) < 0 ? offset : -offset);
+  return s;
+}
+
+/// A density that a light touching its receiver, or seen edge on, makes infinite or zero is no sample.
+bool usable(float pdf) { return pdf > 0 && pdf < kInfinity; }
+
+}  // namespace
+
+LightTable::LightTable(const Scene& scene, const World& world) : scene_(&scene), world_(&world), environment_(scene) {
+  bool emissive = false;
+  for (const Part& part : world.parts) emissive |= part.emissive;
+  if (emissive) {
+    first_triangle_.reserve(world.slot_count);
+    for (const Placement& placement : world.placements)
+      add_placement(placement, int(scene.meshes[placement.mesh].primitives.size()));
+  }
+  first_area_ = int(triangles_.size());
+  first_punctual_ = first_area_ + int(world.area_lights.size());
+  environment_index_ = first_punctual_ + int(world.punctual_lights.size());
+  count_ = environment_index_ + (environment_.black() ? 0 : 1);
+  if (count_ == 1) return;
+
+  const float radius = world.bounds.isEmpty() ? 1 : 0.5f * world.bounds.size().length();
+  std::vector<float> powers;
+  powers.reserve(count_);
+  for (const EmissiveTriangle& t : triangles_) powers.push_back(power(t));
+  for (const AreaLight& light : world.area_lights) powers.push_back(power(light));
+  for (const PunctualLight& light : world.punctual_lights) powers.push_back(power(light, radius));
+  if (!environment_.black()) powers.push_back(environment_.mean_luminance() * 4 * kPi * kPi * radius * radius);
+  distribution_ = Distribution1D(powers);
+}
+
+void LightTable::add_placement(const Placement& placement, int primitives) {
+  for (int i = 0; i < primitives; ++i) {
+    first_triangle_.push_back(std::uint32_t(triangles_.size()));
+    const Part& part = world_->parts[placement.first_part + i];
+    if (!part.emissive) continue;
+    const Affine& m = placement.to_world;
+    for (std::uint32_t k = 0; k < part.primitive->triangles.size(); ++k) {
+      const Triangle& t = part.primitive->triangles[k];
+      const Vec3f &a = part.primitive->positions[t[0]], &b = part.primitive->positions[t[1]],
+                  &c = part.primitive->positions[t[2]];
+      const Vec3f normal = m.normal((b - a).cross(c - a));
+      EmissiveTriangle e{m.point(a), m.vector(b - a), m.vector(c - a), normal.normalized(), 0, 0, &part, k};
+      e.area = 0.5f * e.e1.cross(e.e2).length();
+      const Vec3f extent = abs(m.x) * std::abs(a.x) + abs(m.y) * std::abs(a.y) + abs(m.z) * std::abs(a.z) +
+                           abs(m.origin) + abs(e.e1) + abs(e.e2);
+      e.offset = plane_offset(e.ng, extent, max_component(max(abs(e.e1), abs(e.e2))) +
+                                                placement.condition * max_component(extent));
+      triangles_.push_back(e);
+    }
+  }
+}
+
+float LightTable::power(const EmissiveTriangle& e) const {
+  const Material& material = *e.part->material;
+  Rgb mean = material.emission;
+  if (material.emission_texture) {
+    // Sixteen points estimate the texture's mean; a tenth of the factor keeps what they miss from being starved.
+    const Triangle& t = e.part->primitive->triangles[e.triangle];
+    mean *= 0.1f;
+    for (int i = 0; i < 16; ++i) {
+      const Vec2f b = sample_triangle({(float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i)))});
+      mean += eval_emission(*scene_, material, interpolate_uvs(*e.part->primitive, t, b.x, b.y)) * (0.9f / 16);
+    }
+  }
+  return luminance(mean) * e.area * kPi * (material.double_sided ? 2 : 1);
+}
+
+float LightTable::power(const AreaLight& light) const {
+  const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
+  return luminance(light.radiance) * area * kPi;
+}
+
+float LightTable::power(const PunctualLight& light, float scene_radius) const {
+  switch (light.kind) {
+    case LightKind::directional:
+      return luminance(light.intensity) * kPi * scene_radius * scene_radius;
+    case LightKind::spot:
+      return luminance(light.intensity) * 2 * kPi * (1 - 0.5f * (light.cos_inner + light.cos_outer));
+    default:
+      return luminance(light.intensity) * 4 * kPi;
+  }
+}
+
+std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) const {
+  int light = 0;
+  Vec2f u = sampler.next2();
+  float probability = 1;
+  if (count_ > 1) {
+    const auto chosen = distribution_.sample(count_ <= kMaxLightsForOneNumber ? u.x : sampler.next1());
+    light = chosen.index;
+    probability = chosen.probability;
+    if (count_ <= kMaxLightsForOneNumber) u.x = chosen.remainder;
+    if (probability <= 0) return std::nullopt;
+  }
+  std::optional<LightSample> s;
+  if (light < first_area_) {
+    s = sample_triangle(triangles_[light], p, u);
+  } else if (light < first_punctual_) {
+    s = sample_area(world_->area_lights[light - first_area_], p, u);
+  } else if (light < environment_index_) {
+    s = sample_punctual(world_->punctual_lights[light - first_punctual_], p);
+  } else {
+    float pdf;
+    const Vec3f wi = environment_.sample(u, pdf);
+    if (usable(pdf)) s = LightSample{wi, environment_.eval(wi), pdf, false, true, {}};
+  }
+  if (s) s->pdf *= probability;
+  return s;
+}
+
+std::optional<LightSample> LightTable::sample_triangle(const EmissiveTriangle& e, const Vec3f& p,
+                                                       const Vec2f& u) const {
+  const Vec2f b = sample_triangle(u);
+  LightSample s = area_sample(p, e.v0 + e.e1 * b.x + e.e2 * b.y, e.ng, e.offset, e.area);
+  const Material& material = *e.part->material;
+  if (!usable(s.pdf) || (!material.double_sided && s.wi.dot(e.ng) >= 0)) return std::nullopt;
+  s.radiance = material.emission;
+  if (material.emission_texture) {
+    const Primitive& primitive = *e.part->primitive;
+    s.radiance = eval_emission(*scene_, material, interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
+  }
+  return s;
+}
+
+std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const {
+  const Vec2f q = light.disk ? sample_disk(u) : Vec2f(2 * u.x - 1, 2 * u.y - 1);
+  const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
+  const Vec3f extent = abs(light.center) + abs(light.half_x) + abs(light.half_y);
+  LightSample s = area_sample(p, light.center + light.half_x * q.x + light.half_y * q.y, light.normal,
+                              plane_offset(light.normal, extent, max_component(extent)), area);
+  if (!usable(s.pdf) || s.wi.dot(light.normal) >= 0) return std::nullopt;
+  s.radiance = light.radiance;
+  return s;
+}
+
+std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& light, const Vec3f& p) const {
+  if (light.kind == LightKind::directional)
+    return LightSample{-light.direction, light.intensity, 1, true, true, {}};
+  const Vec3f to_light = light.position - p;
+  const float distance2 = to_light.dot(to_light);
+  if (!(distance2 > 0)) return std::nullopt;
+  const Vec3f wi = to_light * (1 / std::sqrt(distance2));
+  Rgb irradiance = light.intensity * (1 / distance2);
+  if (light.range > 0) {
+    // KHR_lights_punctual: the recommended window that reaches zero at the range.
+    const float ratio2 = distance2 / (light.range * light.range);
+    irradiance *= std::clamp(1 - ratio2 * ratio2, 0.0f, 1.0f);
+  }
+  if (light.kind == LightKind::spot) {
+    // KHR_lights_punctual: linear in the cosine between the cones, squared.
+    const float cosine = -wi.dot(light.direction);
+    const float t = (cosine - light.cos_outer) / std::max(0.001f, light.cos_inner - light.cos_outer);
+    irradiance *= std::clamp(t, 0.0f, 1.0f) * std::clamp(t, 0.0f, 1.0f);
+  }
+  if (is_black(irradiance)) return std::nullopt;
+  return LightSample{wi, irradiance, 1, true, false, light.position};
+}
+
+float LightTable::pdf_triangle(const Hit& hit, float cosine) const {
+  const Placement& placement = world_->placements[hit.placement];
+  const int light = int(first_triangle_[placement.first_slot + hit.primitive] + hit.triangle);
+  return choice(light) * hit.t * hit.t / (triangles_[light].area * cosine);
+}
+
+float LightTable::pdf_area_light(const Hit& hit, float cosine) const {
+  const AreaLight& light = world_->area_lights[hit.triangle];
+  const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
+  return choice(first_area_ + int(hit.triangle)) * hit.t * hit.t / (area * cosine);
+}
+
+float LightTable::pdf_environment(const Vec3f& d) const {
+  return choice(environment_index_) * environment_.pdf(d);
+}
+
+}  // namespace parian

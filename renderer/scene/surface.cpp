@@ -1,0 +1,124 @@
+#include "renderer/scene/surface.h"
+
+namespace parian {
+namespace {
+
+template <class T>
+T interpolate(const SharedArray<T>& values, const Triangle& t, float u, float v) {
+  return values[t[0]] * (1 - u - v) + values[t[1]] * u + values[t[2]] * v;
+}
+
+/// dp/du of the triangle in uv set `set`, world space; zero where the uvs are degenerate.
+Vec3f uv_tangent(const Primitive& primitive, const Triangle& t, int set, const Vec3f& e1, const Vec3f& e2) {
+  const SharedArray<Vec2f>& uvs = primitive.uvs[set];
+  if (uvs.empty()) return Vec3f(0);
+  const Vec2f d1 = uvs[t[1]] - uvs[t[0]], d2 = uvs[t[2]] - uvs[t[0]];
+  const float det = d1.x * d2.y - d1.y * d2.x;
+  // The sign is what matters: a mirrored map turns the tangent round.
+  return det == 0 ? Vec3f(0) : (e1 * d2.y - e2 * d1.y) * (det < 0 ? -1.0f : 1.0f);
+}
+
+/// The normal of the normal map (glTF 2.0, 3.9.3), in world space; n where the surface has no tangent there.
+Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placement, const Hit& hit, const Vec3f& n,
+                 const Vec3f& e1, const Vec3f& e2) {
+  const Material& material = *s.part->material;
+  const Primitive& primitive = *s.part->primitive;
+  const Triangle& t = primitive.triangles[hit.triangle];
+  Vec3f tangent;
+  float sign;
+  if (!primitive.tangents.empty()) {
+    const Vec4f local = interpolate(primitive.tangents, t, hit.u, hit.v);
+    tangent = placement.to_world.vector({local.x, local.y, local.z});
+    sign = (local.w < 0) != (placement.to_world.determinant() < 0) ? -1.0f : 1.0f;
+  } else {
+    const int set = material.normal_texture.uv_set;
+    tangent = uv_tangent(primitive, t, set, e1, e2);
+    // v grows downwards in the image, so the bitangent is against dp/dv: its side follows from the map's orientation.
+    const SharedArray<Vec2f>& uvs = primitive.uvs[set];
+    const Vec2f d1 = uvs.empty() ? Vec2f(0) : uvs[t[1]] - uvs[t[0]], d2 = uvs.empty() ? Vec2f(0) : uvs[t[2]] - uvs[t[0]];
+    const Vec3f bitangent = (e1 * d2.x - e2 * d1.x) * (d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f);
+    sign = n.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f;
+  }
+  tangent -= n * n.dot(tangent);
+  const float length = tangent.length();
+  if (!(length > 0)) return n;
+  tangent /= length;
+  const Vec3f bitangent = n.cross(tangent) * sign;
+  const Vec4f texel = eval_texture(scene, material.normal_texture, s.uvs, ColorSpace::linear);
+  const Vec3f m((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale, 2 * texel.z - 1);
+  const Vec3f mapped = tangent * m.x + bitangent * m.y + n * m.z;
+  return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
+}
+
+}  // namespace
+
+Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
+  const Placement& placement = world.placements[hit.placement];
+  const Part& part = world.parts[placement.first_part + hit.primitive];
+  const Primitive& primitive = *part.primitive;
+  const Triangle& t = primitive.triangles[hit.triangle];
+  const Vec3f &v0 = primitive.positions[t[0]], &v1 = primitive.positions[t[1]], &v2 = primitive.positions[t[2]];
+
+  Surface s;
+  s.part = &part;
+  s.wo = -d;
+  Vec3f e1 = v1 - v0, e2 = v2 - v0;
+  Vec3f normal = e1.cross(e2), extent = max(abs(v0), max(abs(v1), abs(v2)));
+  float slack = 0;
+  s.p = v0 * (1 - hit.u - hit.v) + v1 * hit.u + v2 * hit.v;
+  if (!placement.identity) {
+    const Affine& m = placement.to_world;
+    s.p = m.point(s.p);
+    e1 = m.vector(e1);
+    e2 = m.vector(e2);
+    normal = m.normal(normal);
+    extent = abs(m.x) * extent.x + abs(m.y) * extent.y + abs(m.z) * extent.z + abs(m.origin);
+    slack = placement.condition * max_component(extent);
+  }
+  s.ng = normalize(normal);
+  s.offset = plane_offset(s.ng, extent, std::max(max_component(abs(e1)), max_component(abs(e2))) + slack);
+  s.front = s.wo.dot(s.ng) >= 0;
+  if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
+  s.color = part.needs_color ? interpolate(primitive.colors, t, hit.u, hit.v) : Vec4f(1);
+
+  Vec3f ns = s.ng;
+  if (!primitive.normals.empty()) {
+    const Vec3f local = interpolate(primitive.normals, t, hit.u, hit.v);
+    const Vec3f world_normal = placement.identity ? local : placement.to_world.normal(local);
+    const float length2 = world_normal.dot(world_normal);
+    if (length2 > 0) ns = world_normal * (1 / std::sqrt(length2));
+  }
+  if (part.needs_tangent) ns = map_normal(scene, s, placement, hit, ns, e1, e2);
+  if (!s.front) ns = -ns;
+  // A shading normal that faces away from the viewer cannot be shaded: the geometric one takes its place.
+  if (s.wo.dot(ns) <= 0) ns = s.front ? s.ng : -s.ng;
+  s.frame = make_frame(ns);
+  return s;
+}
+
+Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs) {
+  if (!material.emission_texture) return material.emission;
+  const Vec4f texel = eval_texture(scene, material.emission_texture, uvs, ColorSpace::srgb);
+  return material.emission * Rgb(texel.x, texel.y, texel.z);
+}
+
+std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle& triangle, float u, float v) {
+  std::array<Vec2f, 2> uvs{Vec2f(0), Vec2f(0)};
+  for (int set = 0; set < 2; ++set)
+    if (!primitive.uvs[set].empty()) uvs[set] = interpolate(primitive.uvs[set], triangle, u, v);
+  return uvs;
+}
+
+float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle, float u, float v) {
+  const Primitive& primitive = *part.primitive;
+  const Material& material = *part.material;
+  const Triangle& t = primitive.triangles[triangle];
+  float alpha = material.alpha;
+  if (!primitive.colors.empty()) alpha *= interpolate(primitive.colors, t, u, v).w;
+  if (material.base_color_texture)
+    alpha *= eval_texture(scene, material.base_color_texture, interpolate_uvs(primitive, t, u, v), ColorSpace::srgb).w;
+  if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
+  return alpha;
+}
+
+}  // namespace parian

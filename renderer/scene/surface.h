@@ -1,0 +1,55 @@
+/// From a hit to what shading needs: position with its error bound, normals, shading frame, texture coordinates.
+#pragma once
+
+#include <cstdint>
+
+#include "renderer/scene/texture.h"
+#include "renderer/scene/world.h"
+
+namespace parian {
+
+/// What a ray hit: triangle `triangle` of primitive `primitive` of placement `placement` at barycentric weights
+/// (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`.
+struct Hit {
+  static constexpr std::uint32_t kAreaLightHit = 0xffffffffu;
+  float t, u, v;
+  std::uint32_t placement, primitive, triangle;
+};
+
+struct Surface {
+  Vec3f p;             // world space
+  float offset;        // distance along ng that clears every rounding error in p and in an intersection near it
+  Vec3f ng;            // unit geometric normal, on the front side
+  Vec3f wo;            // unit, towards where the ray came from
+  bool front;          // wo is on the side of ng
+  Frame frame;         // shading frame; frame.z is on the side of wo
+  const Part* part;
+  std::array<Vec2f, 2> uvs;  // only where part->needs_uv
+  Vec4f color;               // vertex colour, white where there is none
+};
+
+/// The surface at a hit (on a mesh) by a ray of unit direction d.
+Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d);
+
+/// Where a ray along w leaves: p moved to w's side of the surface, beyond the rounding error.
+inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
+  return s.p + s.ng * (w.dot(s.ng) < 0 ? -s.offset : s.offset);
+}
+
+/// How far along its normal a point of a triangle or parallelogram must move so that a ray from there cannot hit the
+/// same plane again: bounds the rounding of interpolating it, of Embree's distance T = (v0 - o) . n, and of the new
+/// origin. `extent` bounds the coordinates that went in per axis, `edge` the length of an edge.
+inline float plane_offset(const Vec3f& ng, const Vec3f& extent, float edge) {
+  return error_gamma(8) * (abs(ng).dot(extent) + edge);
+}
+
+/// Emitted radiance of a material at uvs, on a side from which it emits.
+Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs);
+
+/// Interpolated texture coordinates of a point of a triangle; zero where the primitive has none.
+std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle& triangle, float u, float v);
+
+/// Coverage in [0, 1] at a point of a triangle: base colour alpha; for MASK 0 or 1 by the cutoff.
+float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle, float u, float v);
+
+}  // namespace parian

@@ -1,0 +1,194 @@
+#include "renderer/scene/world.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "renderer/base/parallel.h"
+
+namespace parian {
+namespace {
+
+bool has_alpha(const Material& material, const Primitive& primitive) {
+  if (material.alpha_mode == AlphaMode::opaque) return false;
+  return material.alpha < 1 || material.base_color_texture || !primitive.colors.empty() ||
+         (material.alpha_mode == AlphaMode::mask && material.alpha_cutoff > 1);
+}
+
+Part make_part(const Scene& scene, const Primitive& primitive) {
+  const Material& m = scene.materials[primitive.material];
+  const bool textured = m.base_color_texture || m.metallic_roughness_texture || m.normal_texture ||
+                        m.emission_texture || m.specular_texture || m.specular_color_texture;
+  return {.primitive = &primitive,
+          .material = &m,
+          .material_index = primitive.material,
+          .needs_uv = textured,
+          .needs_color = !primitive.colors.empty(),
+          .needs_tangent = bool(m.normal_texture),
+          .emissive = !is_black(m.emission) && !m.unlit,
+          .alpha = has_alpha(m, primitive)};
+}
+
+/// The largest row sum of |M| |M^-1|.
+float condition_number(const Mat4d& matrix) {
+  const Mat4d inverse = matrix.inverse();
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) sum += std::abs(matrix[k][i]) * std::abs(inverse[j][k]);
+    worst = std::max(worst, sum);
+  }
+  return float(worst);
+}
+
+bool is_identity(const Affine& a) { return a == Affine{}; }
+
+/// The map with its scale and shear taken out: x, y and z orthonormal, z keeping its direction.
+Affine orthonormal(const Affine& a) {
+  const Vec3f z = a.z.normalized();
+  const Vec3f x = a.y.cross(z).normalized();
+  return {x, z.cross(x), z, a.origin};
+}
+
+AreaLight make_area_light(const Light& light, const Affine& to_world, int node) {
+  // EXT_lights_area: the size scales with the largest component of the node's scale, always uniformly.
+  const Affine axes = orthonormal(to_world);
+  const float scale = std::max({to_world.x.length(), to_world.y.length(), to_world.z.length()});
+  const bool disk = light.kind == LightKind::disk;
+  const float half_x = 0.5f * scale * light.width, half_y = 0.5f * scale * (disk ? light.width : light.height);
+  return {axes.origin, axes.x * half_x, axes.y * half_y, -axes.z, light.color * light.intensity, disk, node};
+}
+
+PunctualLight make_punctual_light(const Light& light, const Affine& to_world) {
+  return {light.kind,  to_world.origin,           -to_world.z.normalized(),     light.color * light.intensity,
+          light.range, std::cos(light.inner_angle), std::cos(light.outer_angle)};
+}
+
+class WorldBuilder {
+ public:
+  explicit WorldBuilder(const Scene& scene) : scene_(scene) {
+    for (const Mesh& mesh : scene.meshes) {
+      first_part_.push_back(std::uint32_t(world_.parts.size()));
+      for (const Primitive& primitive : mesh.primitives) world_.parts.push_back(make_part(scene, primitive));
+    }
+    part_bounds_.resize(world_.parts.size());
+    parallel_for(world_.parts.size(), 1,
+                 [&](std::size_t i) { part_bounds_[i] = part_bounds(world_.parts[i], Affine{}); });
+  }
+
+  World build() && {
+    std::vector<std::pair<int, Mat4d>> open;
+    for (auto root = scene_.roots.rbegin(); root != scene_.roots.rend(); ++root) open.emplace_back(*root, Mat4d());
+    while (!open.empty()) {
+      const auto [index, parent] = open.back();
+      open.pop_back();
+      const Node& node = scene_.nodes[index];
+      const Mat4d to_world = node.transform.to_matrix() * parent;
+      add_node(node, index, to_world);
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        open.emplace_back(*child, to_world);
+    }
+    return std::move(world_);
+  }
+
+ private:
+  void add_node(const Node& node, int index, const Mat4d& to_world) {
+    if (node.mesh != kNone) {
+      if (node.instances.empty()) add_mesh(node.mesh, index, to_world);
+      for (const Transform& instance : node.instances) add_mesh(node.mesh, index, instance.to_matrix() * to_world);
+    }
+    if (node.light != kNone) add_light(scene_.lights[node.light], index, to_affine(to_world));
+    if (node.camera != kNone) world_.cameras.push_back({node.camera, index, orthonormal(to_affine(to_world))});
+  }
+
+  void add_mesh(int mesh, int node, const Mat4d& matrix) {
+    const Affine to_world = to_affine(matrix);
+    // A scale of zero along an axis leaves nothing that a ray could hit: the node is hidden.
+    if (to_world.determinant() == 0) return;
+    const bool identity = is_identity(to_world);
+    world_.placements.push_back({to_world, node, mesh, first_part_[mesh], world_.slot_count,
+                                 identity ? 0 : condition_number(matrix), identity});
+    for (std::size_t i = 0; i < scene_.meshes[mesh].primitives.size(); ++i) {
+      const Box3f& box = part_bounds_[first_part_[mesh] + i];
+      if (box.isEmpty()) continue;
+      for (int corner = 0; corner < 8; ++corner)
+        world_.bounds.extendBy(to_world.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                               corner & 4 ? box.max.z : box.min.z}));
+    }
+    world_.slot_count += std::uint32_t(scene_.meshes[mesh].primitives.size());
+  }
+
+  void add_light(const Light& light, int node, const Affine& to_world) {
+    if (light.kind == LightKind::rectangle || light.kind == LightKind::disk) {
+      const AreaLight area = make_area_light(light, to_world, node);
+      for (int corner = 0; corner < 4; ++corner)
+        world_.bounds.extendBy(area.center + area.half_x * (corner & 1 ? 1 : -1) + area.half_y * (corner & 2 ? 1 : -1));
+      world_.area_lights.push_back(area);
+    } else {
+      world_.punctual_lights.push_back(make_punctual_light(light, to_world));
+    }
+  }
+
+  const Scene& scene_;
+  World world_;
+  std::vector<std::uint32_t> first_part_;
+  std::vector<Box3f> part_bounds_;
+};
+
+bool has_light(const Scene& scene, const World& world) {
+  if (!world.area_lights.empty() || !world.punctual_lights.empty() || !is_black(scene.environment.radiance)) return true;
+  for (const Placement& p : world.placements)
+    for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i) {
+      const Part& part = world.part(std::uint32_t(&p - world.placements.data()), std::uint32_t(i));
+      if (part.emissive || part.material->unlit) return true;
+    }
+  return false;
+}
+
+/// A camera of 40 degrees, 30 degrees to the side and 20 above, that has the bounding sphere in its view.
+void add_framing_camera(Scene& scene, const Box3f& bounds) {
+  const Vec3f center = bounds.isEmpty() ? Vec3f(0) : bounds.center();
+  const float radius = bounds.isEmpty() ? 1 : std::max(0.5f * bounds.size().length(), 1e-6f);
+  const Vec3f back = Vec3f(0.47f, 0.342f, 0.814f).normalized();
+  const float yfov = 0.7f, distance = radius / std::sin(0.5f * yfov);
+  const Vec3f x = Vec3f(0, 1, 0).cross(back).normalized(), y = back.cross(x), eye = center + back * distance;
+
+  Node node;
+  node.name = "framing camera";
+  node.transform.matrix =
+      Imath::M44f(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, back.x, back.y, back.z, 0, eye.x, eye.y, eye.z, 1);
+  node.camera = int(scene.cameras.size());
+  Camera camera;
+  camera.name = node.name;
+  camera.yfov = yfov;
+  scene.cameras.push_back(camera);
+  scene.roots.push_back(int(scene.nodes.size()));
+  scene.nodes.push_back(node);
+}
+
+}  // namespace
+
+World make_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+
+Box3f part_bounds(const Part& part, const Affine& to_world) {
+  Box3f box;
+  for (const Vec3f& p : part.primitive->positions) box.extendBy(to_world.point(p));
+  return box;
+}
+
+std::vector<std::string> add_missing_camera_and_light(Scene& scene) {
+  std::vector<std::string> notes;
+  const World world = make_world(scene);
+  if (world.cameras.empty()) {
+    add_framing_camera(scene, world.bounds);
+    notes.push_back("no camera in the scene: added one that frames it");
+  }
+  if (!has_light(scene, world)) {
+    scene.environment.radiance = Rgb(1, 1, 1);
+    notes.push_back("no light in the scene: added a plain white sky");
+  }
+  return notes;
+}
+
+}  // namespace parian

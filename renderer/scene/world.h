@@ -1,0 +1,83 @@
+/// The scene as the tracer walks it: the node tree flattened into world space, meshes resolved to arrays and flags.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace parian {
+
+/// One primitive of one mesh, resolved, with what a hit on it needs.
+struct Part {
+  const Primitive* primitive;
+  const Material* material;
+  int material_index;
+  bool needs_uv;       // a texture of the material will be looked up
+  bool needs_color;    // vertex colours are there
+  bool needs_tangent;  // there is a normal map
+  bool emissive;
+  bool alpha;          // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
+};
+
+/// A mesh drawn once.
+struct Placement {
+  Affine to_world;
+  int node, mesh;
+  std::uint32_t first_part;  // World::parts[first_part + primitive]
+  std::uint32_t first_slot;  // numbers all primitives of all placements in order
+  // Bounds what rounding in the map to object space and back does to a point, as a multiple of its coordinates: the
+  // largest row sum of |M| |M^-1| (Higham, 7.1); 0 for the identity.
+  float condition;
+  bool identity;
+};
+
+/// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and opaque
+/// from the other. The disk is the ellipse inscribed in the rectangle (a circle, its sides being equal).
+struct AreaLight {
+  Vec3f center, half_x, half_y, normal;
+  Rgb radiance;
+  bool disk;
+  int node;
+};
+
+/// A point, spot or directional light in world space.
+struct PunctualLight {
+  LightKind kind;
+  Vec3f position, direction;  // direction: where it shines
+  Rgb intensity;              // W/sr; directional: W/m^2
+  float range;                // 0: none
+  float cos_inner, cos_outer;
+};
+
+struct CameraPlacement {
+  int camera, node;
+  Affine to_world;  // orthonormal: a camera ignores its node's scale
+};
+
+struct World {
+  std::vector<Part> parts;
+  std::vector<Placement> placements;
+  std::vector<AreaLight> area_lights;
+  std::vector<PunctualLight> punctual_lights;
+  std::vector<CameraPlacement> cameras;
+  std::uint32_t slot_count = 0;
+  Box3f bounds;  // of all placed vertices and area lights; empty where there are none
+
+  const Part& part(std::uint32_t placement, std::uint32_t primitive) const {
+    return parts[placements[placement].first_part + primitive];
+  }
+};
+
+/// The scene must be valid (validate()) and outlive the result, which points into it.
+World make_world(const Scene& scene);
+
+/// Bounds of a part's vertices under a map.
+Box3f part_bounds(const Part& part, const Affine& to_world);
+
+/// Gives a scene without camera one that frames what is in it, from slightly above the front, and one without light
+/// a plain white sky of radiance 1. Returns a line for each that it added.
+std::vector<std::string> add_missing_camera_and_light(Scene& scene);
+
+}  // namespace parian
