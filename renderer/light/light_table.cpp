@@ -114,7 +114,7 @@ std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) 
   }
   std::optional<LightSample> s;
   if (light < first_area_) {
-    s = sample_triangle(triangles_[light], p, u);
+    s = sample_emissive(triangles_[light], p, u);
   } else if (light < first_punctual_) {
     s = sample_area(world_->area_lights[light - first_area_], p, u);
   } else if (light < environment_index_) {
@@ -128,7 +128,7 @@ std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) 
   return s;
 }
 
-std::optional<LightSample> LightTable::sample_triangle(const EmissiveTriangle& e, const Vec3f& p,
+std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e, const Vec3f& p,
                                                        const Vec2f& u) const {
   const Vec2f b = sample_triangle(u);
   LightSample s = area_sample(p, e.v0 + e.e1 * b.x + e.e2 * b.y, e.ng, e.offset, e.area);

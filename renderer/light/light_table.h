@@ -56,7 +56,7 @@ class LightTable {
   float power(const EmissiveTriangle& emitter) const;
   float power(const AreaLight& light) const;
   float power(const PunctualLight& light, float scene_radius) const;
-  std::optional<LightSample> sample_triangle(const EmissiveTriangle& emitter, const Vec3f& p, const Vec2f& u) const;
+  std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, const Vec3f& p, const Vec2f& u) const;
   std::optional<LightSample> sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const;
   std::optional<LightSample> sample_punctual(const PunctualLight& light, const Vec3f& p) const;
   float choice(int light) const { return count_ == 1 ? 1 : distribution_.probability(light); }

@@ -1,0 +1,309 @@
+#include "renderer/accel/accel.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include "renderer/accel/embree.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/random.h"
+
+namespace parian {
+namespace {
+
+constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
+
+/// What the alpha filter needs of the ray that Embree traces; Embree passes the context on.
+struct Query : EmbreeContext {
+  const Scene* scene;
+  const World* world;
+  std::uint32_t random;
+};
+
+/// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that a triangle
+/// met twice by one ray decides alike.
+void alpha_filter(const RTCFilterFunctionNArguments* a) {
+  const Part& part = *static_cast<const Part*>(a->geometryUserPtr);
+  const auto* query = static_cast<const Query*>(a->context);
+  const std::uint32_t triangle = RTCHitN_primID(a->hit, 1, 0);
+  const float coverage =
+      eval_coverage(*query->scene, part, triangle, RTCHitN_u(a->hit, 1, 0), RTCHitN_v(a->hit, 1, 0));
+  if (coverage >= 1) return;
+  const std::uint32_t top = RTCHitN_instID(a->hit, 1, 0, 0);
+  const std::uint32_t where = hash32(triangle, hash32(RTCHitN_geomID(a->hit, 1, 0), top));
+  if (to_unit_float(hash32(query->random, where)) >= coverage) *a->valid = 0;
+}
+
+/// Cuts the disk out of its quad.
+void disk_filter(const RTCFilterFunctionNArguments* a) {
+  const auto* lights = static_cast<const std::vector<AreaLight>*>(a->geometryUserPtr);
+  if (!(*lights)[RTCHitN_primID(a->hit, 1, 0)].disk) return;
+  const float x = RTCHitN_u(a->hit, 1, 0) - 0.5f, y = RTCHitN_v(a->hit, 1, 0) - 0.5f;
+  if (x * x + y * y > 0.25f) *a->valid = 0;
+}
+
+void set_ray(RTCRay& r, const Ray& ray) {
+  r.org_x = ray.o.x;
+  r.org_y = ray.o.y;
+  r.org_z = ray.o.z;
+  r.dir_x = ray.d.x;
+  r.dir_y = ray.d.y;
+  r.dir_z = ray.d.z;
+  r.tnear = 0;
+  r.tfar = ray.tmax;
+  r.time = 0;
+  r.mask = 0xffffffffu;
+  r.id = 0;
+  r.flags = 0;
+}
+
+bool memory_monitor(void* user, ssize_t bytes, bool) {
+  static_cast<std::atomic<std::ptrdiff_t>*>(user)->fetch_add(bytes);
+  return true;
+}
+
+}  // namespace
+
+struct Accel::Impl {
+  // A top-level geometry id means: a primitive in world space, an instance of a mesh, or all area lights.
+  struct TopEntry {
+    std::uint32_t placement, primitive;
+  };
+
+  const Scene* scene;
+  const World* world;
+  bool editable;
+  std::atomic<std::ptrdiff_t> bytes{0};
+  BuildCounts builds;
+  RTCDevice device = nullptr;
+  RTCScene top = nullptr;
+  std::vector<RTCScene> mesh_scenes;  // by mesh; null where the mesh is not instanced
+  std::vector<TopEntry> entries;      // by geometry id of the top level
+  std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
+
+  Impl(const Scene& s, const World& w, bool edit) : scene(&s), world(&w), editable(edit) {
+    device = rtcNewDevice(fmt::format("threads={}", thread_count()).c_str());
+    if (!device) throw std::runtime_error("Embree: no device");
+    rtcSetDeviceMemoryMonitorFunction(device, memory_monitor, &bytes);
+    top = new_scene();
+    build_meshes();
+    build_top();
+  }
+
+  ~Impl() {
+    for (RTCScene mesh : mesh_scenes)
+      if (mesh) rtcReleaseScene(mesh);
+    if (top) rtcReleaseScene(top);
+    if (device) rtcReleaseDevice(device);
+  }
+
+  /// Robust: without it rays slip through shared edges.
+  RTCScene new_scene() const {
+    RTCScene result = rtcNewScene(device);
+    rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
+    return result;
+  }
+
+  void check(const char* what) const {
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      throw std::runtime_error(fmt::format("Embree: {} failed with error {}", what, int(error)));
+  }
+
+  RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
+    const Primitive& primitive = *part.primitive;
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, primitive.triangles.data(), 0,
+                               sizeof(Triangle), primitive.triangles.size());
+    fill_vertices(geometry, part, to_world);
+    if (part.alpha) {
+      rtcSetGeometryUserData(geometry, const_cast<void*>(static_cast<const void*>(&part)));
+      rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+      rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+    }
+    rtcCommitGeometry(geometry);
+    ++builds.meshes;
+    return geometry;
+  }
+
+  /// Embree reads 16 bytes at the last vertex, so memory that was not laid out for it is copied.
+  void fill_vertices(RTCGeometry geometry, const Part& part, const Affine* to_world) {
+    const SharedArray<Vec3f>& positions = part.primitive->positions;
+    auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                            sizeof(Vec3f), positions.size()));
+    check("allocating vertices");
+    constexpr std::size_t kChunk = 1 << 16;
+    parallel_for((positions.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
+      const std::size_t end = std::min(positions.size(), (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) out[i] = to_world ? to_world->point(positions[i]) : positions[i];
+    });
+  }
+
+  void build_meshes() {
+    std::vector<int> uses(scene->meshes.size(), 0);
+    for (const Placement& p : world->placements) ++uses[p.mesh];
+    mesh_scenes.assign(scene->meshes.size(), nullptr);
+    for (const Placement& p : world->placements) {
+      if (mesh_scenes[p.mesh] || (!editable && uses[p.mesh] == 1)) continue;
+      RTCScene mesh = new_scene();
+      const std::size_t count = scene->meshes[p.mesh].primitives.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        RTCGeometry geometry = new_triangles(world->parts[p.first_part + i], nullptr);
+        rtcAttachGeometryByID(mesh, geometry, unsigned(i));
+        rtcReleaseGeometry(geometry);
+      }
+      rtcCommitScene(mesh);
+      check("building a mesh");
+      mesh_scenes[p.mesh] = mesh;
+    }
+  }
+
+  void attach(RTCGeometry geometry, std::uint32_t placement, std::uint32_t primitive) {
+    rtcAttachGeometryByID(top, geometry, unsigned(entries.size()));
+    rtcReleaseGeometry(geometry);
+    entries.push_back({placement, primitive});
+    geometries.push_back(geometry);
+  }
+
+  void build_top() {
+    for (std::uint32_t i = 0; i < world->placements.size(); ++i) {
+      const Placement& p = world->placements[i];
+      if (RTCScene mesh = mesh_scenes[p.mesh]) {
+        RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, mesh);
+        set_instance_transform(instance, p.to_world);
+        attach(instance, i, 0);
+      } else {
+        for (std::uint32_t k = 0; k < scene->meshes[p.mesh].primitives.size(); ++k)
+          attach(new_triangles(world->parts[p.first_part + k], p.identity ? nullptr : &p.to_world), i, k);
+      }
+    }
+    if (!world->area_lights.empty()) {
+      RTCGeometry quads = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+      rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
+                              4 * world->area_lights.size());
+      auto* indices = static_cast<std::uint32_t*>(
+          rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(std::uint32_t),
+                                  world->area_lights.size()));
+      for (std::uint32_t i = 0; i < 4 * world->area_lights.size(); ++i) indices[i] = i;
+      set_area_lights(quads);
+      attach(quads, Hit::kAreaLightHit, 0);
+    }
+    commit_top();
+  }
+
+  void commit_top() {
+    rtcCommitScene(top);
+    check("building the scene");
+    ++builds.top_level;
+  }
+
+  static void set_instance_transform(RTCGeometry instance, const Affine& to_world) {
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &to_world);
+    rtcCommitGeometry(instance);
+  }
+
+  void set_area_lights(RTCGeometry quads) {
+    auto* vertices = static_cast<Vec3f*>(rtcGetGeometryBufferData(quads, RTC_BUFFER_TYPE_VERTEX, 0));
+    bool disks = false;
+    for (std::size_t i = 0; i < world->area_lights.size(); ++i) {
+      const AreaLight& light = world->area_lights[i];
+      vertices[4 * i + 0] = light.center - light.half_x - light.half_y;
+      vertices[4 * i + 1] = light.center + light.half_x - light.half_y;
+      vertices[4 * i + 2] = light.center + light.half_x + light.half_y;
+      vertices[4 * i + 3] = light.center - light.half_x + light.half_y;
+      disks |= light.disk;
+    }
+    rtcSetGeometryUserData(quads, const_cast<void*>(static_cast<const void*>(&world->area_lights)));
+    rtcSetGeometryIntersectFilterFunction(quads, disks ? disk_filter : nullptr);
+    rtcSetGeometryOccludedFilterFunction(quads, disks ? disk_filter : nullptr);
+    rtcUpdateGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(quads);
+  }
+};
+
+Accel::Accel(const Scene& scene, const World& world, const AccelSettings& settings)
+    : impl_(std::make_unique<Impl>(scene, world, settings.editable)) {}
+
+Accel::~Accel() = default;
+
+void Accel::rebind(const Scene& scene, const World& world) {
+  impl_->scene = &scene;
+  impl_->world = &world;
+  // Filters hold pointers into the world.
+  for (std::size_t id = 0; id < impl_->entries.size(); ++id) {
+    const auto [placement, primitive] = impl_->entries[id];
+    RTCGeometry geometry = impl_->geometries[id];
+    if (placement == Hit::kAreaLightHit) {
+      impl_->set_area_lights(geometry);
+    } else if (RTCScene mesh = impl_->mesh_scenes[world.placements[placement].mesh]) {
+      const Placement& p = world.placements[placement];
+      for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i)
+        rtcSetGeometryUserData(rtcGetGeometry(mesh, unsigned(i)),
+                               const_cast<void*>(static_cast<const void*>(&world.parts[p.first_part + i])));
+    } else {
+      rtcSetGeometryUserData(
+          geometry, const_cast<void*>(static_cast<const void*>(&world.part(placement, primitive))));
+    }
+  }
+}
+
+void Accel::update_transforms(const Scene& scene, const World& world) {
+  const World& before = *impl_->world;
+  std::vector<Affine> old;
+  for (const Placement& p : before.placements) old.push_back(p.to_world);
+  rebind(scene, world);
+  for (std::size_t id = 0; id < impl_->entries.size(); ++id) {
+    const auto [placement, primitive] = impl_->entries[id];
+    if (placement == Hit::kAreaLightHit) continue;
+    const Placement& p = world.placements[placement];
+    if (old[placement] == p.to_world) continue;
+    RTCGeometry geometry = impl_->geometries[id];
+    if (impl_->mesh_scenes[p.mesh]) {
+      Impl::set_instance_transform(geometry, p.to_world);
+    } else {
+      impl_->fill_vertices(geometry, world.part(placement, primitive), &p.to_world);
+      rtcCommitGeometry(geometry);
+      ++impl_->builds.meshes;
+    }
+  }
+  impl_->commit_top();
+}
+
+bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit, bool coherent) const {
+  Query query;
+  init_context(query);
+  query.scene = impl_->scene;
+  query.world = impl_->world;
+  query.random = random;
+  RTCRayHit r;
+  set_ray(r.ray, ray);
+  r.hit.geomID = kInvalid;
+  r.hit.instID[0] = kInvalid;
+  embree_intersect(impl_->top, r, query, coherent);
+  if (r.hit.geomID == kInvalid) return false;
+  const bool instanced = r.hit.instID[0] != kInvalid;
+  const Impl::TopEntry& entry = impl_->entries[instanced ? r.hit.instID[0] : r.hit.geomID];
+  hit = {r.ray.tfar, r.hit.u, r.hit.v, entry.placement, instanced ? r.hit.geomID : entry.primitive, r.hit.primID};
+  return true;
+}
+
+bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
+  Query query;
+  init_context(query);
+  query.scene = impl_->scene;
+  query.world = impl_->world;
+  query.random = random;
+  RTCRay r;
+  set_ray(r, ray);
+  embree_occluded(impl_->top, r, query);
+  return r.tfar < 0;
+}
+
+std::size_t Accel::bytes() const { return std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load())); }
+
+BuildCounts Accel::builds() const { return impl_->builds; }
+
+}  // namespace parian
