@@ -122,7 +122,7 @@ std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) 
   } else {
     float pdf;
     const Vec3f wi = environment_.sample(u, pdf);
-    if (usable(pdf)) s = LightSample{wi, environment_.eval(wi), pdf, false, true, {}};
+    if (usable(pdf)) s = LightSample{wi, environment_.eval(wi), pdf, false, true, wi};
   }
   if (s) s->pdf *= probability;
   return s;
@@ -155,7 +155,7 @@ std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const
 
 std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& light, const Vec3f& p) const {
   if (light.kind == LightKind::directional)
-    return LightSample{-light.direction, light.intensity, 1, true, true, {}};
+    return LightSample{-light.direction, light.intensity, 1, true, true, p};
   const Vec3f to_light = light.position - p;
   const float distance2 = to_light.dot(to_light);
   if (!(distance2 > 0)) return std::nullopt;

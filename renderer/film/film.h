@@ -1,0 +1,95 @@
+/// The film: sums of samples for each pixel, kept so that neither threads nor tiles nor a resume change a bit, and
+/// their resolution into pictures.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "renderer/base/image.h"
+#include "renderer/base/math.h"
+
+namespace parian {
+
+/// What the first surface of a camera path looks like; the background leaves it as it is here.
+struct Features {
+  Rgb albedo{0, 0, 0};
+  Vec3f normal{0, 0, 0};
+  float depth = 0;           // along the ray; 0 for the background
+  std::uint32_t object = 0;  // node index + 1; 0 for the background
+};
+
+/// A rectangle of pixels.
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
+/// The running sums of one pixel. Samples are added one by one in the order of their numbers, so that the sum does not
+/// depend on how passes were cut.
+struct PixelSums {
+  std::uint32_t samples = 0;
+  std::uint32_t object = 0;  // of the first sample: an id has no mean
+  double color[3] = {}, squares[3] = {};
+
+  void add(const Rgb& c) {
+    for (int k = 0; k < 3; ++k) {
+      color[k] += c[k];
+      squares[k] += double(c[k]) * c[k];
+    }
+    ++samples;
+  }
+};
+
+struct FeatureSums {
+  float albedo[3] = {}, normal[3] = {}, depth = 0;
+};
+
+struct FilmLayers {
+  bool variance = true;       // variance of the mean per channel, from the pixel's own samples
+  bool sample_count = false;
+  bool features = false;      // albedo, normal, depth, object id
+  bool operator==(const FilmLayers&) const = default;
+};
+
+/// One tile's pixels, filled by one thread and then merged.
+struct FilmTile {
+  Tile area;
+  std::vector<PixelSums> pixels;      // row by row
+  std::vector<FeatureSums> features;  // empty unless asked for
+};
+
+class Film {
+ public:
+  Film(int width, int height, FilmLayers layers);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const FilmLayers& layers() const { return layers_; }
+
+  void clear();
+  /// The sums of an area, to be continued.
+  FilmTile checkout(const Tile& area) const;
+  /// Puts an area back. Threads may merge tiles that do not overlap, and resolve, at the same time.
+  void merge(const FilmTile& tile);
+
+  /// Means so far: R, G, B and the layers. Pixels without a sample are black.
+  Picture resolve() const;
+  /// Smallest number of samples of any pixel.
+  std::uint32_t min_samples() const;
+  /// Root mean square over pixels and channels of the standard error, over the mean: the noise of the picture.
+  double relative_noise() const;
+
+  /// The state as bytes and back, for checkpoints. restore() throws std::runtime_error where they do not fit the film.
+  std::vector<char> save() const;
+  void restore(const std::vector<char>& state);
+
+ private:
+  int width_, height_;
+  FilmLayers layers_;
+  std::vector<PixelSums> pixels_;
+  std::vector<FeatureSums> features_;
+  mutable std::mutex mutex_;  // merging is rare and short next to rendering a tile
+};
+
+}  // namespace parian
