@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -41,10 +42,11 @@ constexpr std::string_view kFormats = "a PNG, JPEG, WebP, OpenEXR, Radiance HDR 
 
 // Images are decoded in parallel, each on one thread; only OpenEXR decodes one image on several, from one
 // pool of the process that has as many as Parian's own.
-void limit_oiio_threads() {
+void configure_oiio() {
   static std::once_flag once;
   std::call_once(once, [] {
     OIIO::attribute("threads", 1);
+    OIIO::attribute("debug", 0);  // Debian's build would print remarks of its own
     OIIO::attribute("exr_threads", thread_count());
   });
 }
@@ -71,7 +73,7 @@ bool starts_with(Bytes bytes, std::string_view magic, std::size_t at = 0) {
 // called .png.
 std::string format_of(Bytes bytes, const std::string& name) {
   using namespace std::string_view_literals;
-  if (starts_with(bytes, "\x89PNG"sv)) return "png";
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n"sv)) return "png";
   if (starts_with(bytes, "\xff\xd8\xff"sv)) return "jpeg";
   if (starts_with(bytes, "RIFF"sv) && starts_with(bytes, "WEBP"sv, 8)) return "webp";
   if (starts_with(bytes, "\x76\x2f\x31\x01"sv)) return "openexr";
@@ -107,6 +109,42 @@ bool jpeg_is_whole(Bytes bytes) {
   return false;
 }
 
+std::array<std::uint32_t, 256> make_crc_table() {
+  std::array<std::uint32_t, 256> table;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    table[i] = i;
+    for (int bit = 0; bit < 8; ++bit) table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0xedb88320u : 0);
+  }
+  return table;
+}
+
+// What is wrong with the chunks of a PNG file, or "". OpenImageIO would let libpng print its complaint to
+// stderr, and takes a file without its last chunks; so length and checksum of each chunk that matters are
+// checked before (PNG specification, section 5).
+std::string png_problem(Bytes bytes) {
+  static const std::array<std::uint32_t, 256> table = make_crc_table();
+  const auto word = [&](std::size_t i) {
+    const auto at = [&](std::size_t k) { return std::to_integer<std::uint32_t>(bytes[i + k]); };
+    return at(0) << 24 | at(1) << 16 | at(2) << 8 | at(3);
+  };
+  std::size_t i = 8;
+  while (bytes.size() >= i + 12) {
+    const std::size_t length = word(i);
+    if (bytes.size() - i - 12 < length) break;
+    const std::string_view type(reinterpret_cast<const char*>(bytes.data()) + i + 4, 4);
+    const bool critical = type[0] < 'a' || type[0] > 'z';
+    std::uint32_t crc = 0xffffffffu;
+    if (critical)
+      for (const std::byte b : bytes.subspan(i + 4, length + 4))
+        crc = crc >> 8 ^ table[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff];
+    if (critical && ~crc != word(i + 8 + length))
+      return fmt::format("wrong checksum of the chunk at byte {}", i);
+    if (type == "IEND") return "";
+    i += 12 + length;
+  }
+  return "truncated: the PNG has no end";
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // An open image and the memory it is read from.
@@ -125,7 +163,10 @@ struct Reader {
     is_webp = format == "webp";
     if (format == "jpeg" && !jpeg_is_whole(bytes))
       throw InputError(name, "", "truncated: the JPEG has no end");
-    limit_oiio_threads();
+    if (format == "png")
+      if (const std::string problem = png_problem(bytes); !problem.empty())
+        throw InputError(name, "", problem);
+    configure_oiio();
     input = OIIO::ImageInput::create(format);
     if (!input)
       throw InputError(name, "", fmt::format("no reader for {}: {}", format, first_line(OIIO::geterror())));
@@ -271,7 +312,7 @@ void write_whole(const std::string& path, std::span<const unsigned char> bytes) 
 
 std::vector<unsigned char> encode(const char* format, const OIIO::ImageSpec& spec, const void* pixels,
                                   const std::string& path) {
-  limit_oiio_threads();
+  configure_oiio();
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(format, &memory);
