@@ -26,7 +26,8 @@ Part make_part(const Scene& scene, const Primitive& primitive) {
           .needs_color = !primitive.colors.empty(),
           .needs_tangent = bool(m.normal_texture),
           .emissive = !is_black(m.emission) && !m.unlit,
-          .alpha = has_alpha(m, primitive)};
+          .alpha = has_alpha(m, primitive),
+          .bounds = {}};
 }
 
 /// The largest row sum of |M| |M^-1|.
@@ -65,30 +66,44 @@ PunctualLight make_punctual_light(const Light& light, const Affine& to_world) {
           light.range, std::cos(light.inner_angle), std::cos(light.outer_angle)};
 }
 
+/// Calls visit(node index, node to world) for every node that is drawn, parents first.
+template <class Visit>
+void for_each_node(const Scene& scene, const Visit& visit) {
+  std::vector<std::pair<int, Mat4d>> open;
+  for (auto root = scene.roots.rbegin(); root != scene.roots.rend(); ++root) open.emplace_back(*root, Mat4d());
+  while (!open.empty()) {
+    const auto [index, parent] = open.back();
+    open.pop_back();
+    const Node& node = scene.nodes[index];
+    const Mat4d to_world = node.transform.to_matrix() * parent;
+    visit(index, to_world);
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+      open.emplace_back(*child, to_world);
+  }
+}
+
+Box3f vertex_bounds(const Primitive& primitive) {
+  Box3f box;
+  for (const Vec3f& p : primitive.positions) box.extendBy(p);
+  return box;
+}
+
 class WorldBuilder {
  public:
-  explicit WorldBuilder(const Scene& scene) : scene_(scene) {
+  WorldBuilder(const Scene& scene, const World* same_meshes) : scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
       first_part_.push_back(std::uint32_t(world_.parts.size()));
       for (const Primitive& primitive : mesh.primitives) world_.parts.push_back(make_part(scene, primitive));
     }
-    part_bounds_.resize(world_.parts.size());
-    parallel_for(world_.parts.size(), 1,
-                 [&](std::size_t i) { part_bounds_[i] = part_bounds(world_.parts[i], Affine{}); });
+    parallel_for(world_.parts.size(), 1, [&](std::size_t i) {
+      Part& part = world_.parts[i];
+      part.bounds = same_meshes ? same_meshes->parts[i].bounds : vertex_bounds(*part.primitive);
+    });
   }
 
   World build() && {
-    std::vector<std::pair<int, Mat4d>> open;
-    for (auto root = scene_.roots.rbegin(); root != scene_.roots.rend(); ++root) open.emplace_back(*root, Mat4d());
-    while (!open.empty()) {
-      const auto [index, parent] = open.back();
-      open.pop_back();
-      const Node& node = scene_.nodes[index];
-      const Mat4d to_world = node.transform.to_matrix() * parent;
-      add_node(node, index, to_world);
-      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-        open.emplace_back(*child, to_world);
-    }
+    for_each_node(scene_, [&](int index, const Mat4d& to_world) { add_node(scene_.nodes[index], index, to_world); });
+    world_.cameras = place_cameras(scene_);
     return std::move(world_);
   }
 
@@ -99,7 +114,6 @@ class WorldBuilder {
       for (const Transform& instance : node.instances) add_mesh(node.mesh, index, instance.to_matrix() * to_world);
     }
     if (node.light != kNone) add_light(scene_.lights[node.light], index, to_affine(to_world));
-    if (node.camera != kNone) world_.cameras.push_back({node.camera, index, orthonormal(to_affine(to_world))});
   }
 
   void add_mesh(int mesh, int node, const Mat4d& matrix) {
@@ -110,7 +124,7 @@ class WorldBuilder {
     world_.placements.push_back({to_world, node, mesh, first_part_[mesh], world_.slot_count,
                                  identity ? 0 : condition_number(matrix), identity});
     for (std::size_t i = 0; i < scene_.meshes[mesh].primitives.size(); ++i) {
-      const Box3f& box = part_bounds_[first_part_[mesh] + i];
+      const Box3f& box = world_.parts[first_part_[mesh] + i].bounds;
       if (box.isEmpty()) continue;
       for (int corner = 0; corner < 8; ++corner)
         world_.bounds.extendBy(to_world.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
@@ -133,7 +147,6 @@ class WorldBuilder {
   const Scene& scene_;
   World world_;
   std::vector<std::uint32_t> first_part_;
-  std::vector<Box3f> part_bounds_;
 };
 
 bool has_light(const Scene& scene, const World& world) {
@@ -169,12 +182,15 @@ void add_framing_camera(Scene& scene, const Box3f& bounds) {
 
 }  // namespace
 
-World make_world(const Scene& scene) { return WorldBuilder(scene).build(); }
+World make_world(const Scene& scene, const World* same_meshes) { return WorldBuilder(scene, same_meshes).build(); }
 
-Box3f part_bounds(const Part& part, const Affine& to_world) {
-  Box3f box;
-  for (const Vec3f& p : part.primitive->positions) box.extendBy(to_world.point(p));
-  return box;
+std::vector<CameraPlacement> place_cameras(const Scene& scene) {
+  std::vector<CameraPlacement> cameras;
+  for_each_node(scene, [&](int index, const Mat4d& to_world) {
+    const int camera = scene.nodes[index].camera;
+    if (camera != kNone) cameras.push_back({camera, index, orthonormal(to_affine(to_world))});
+  });
+  return cameras;
 }
 
 std::vector<std::string> add_missing_camera_and_light(Scene& scene) {

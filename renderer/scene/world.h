@@ -19,6 +19,7 @@ struct Part {
   bool needs_tangent;  // there is a normal map
   bool emissive;
   bool alpha;          // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
+  Box3f bounds;        // in object space
 };
 
 /// A mesh drawn once.
@@ -70,11 +71,12 @@ struct World {
   }
 };
 
-/// The scene must be valid (validate()) and outlive the result, which points into it.
-World make_world(const Scene& scene);
+/// The scene must be valid (validate()) and outlive the result, which points into it. `same_meshes`: a world of a scene
+/// with the same meshes, whose bounds then need not be found again.
+World make_world(const Scene& scene, const World* same_meshes = nullptr);
 
-/// Bounds of a part's vertices under a map.
-Box3f part_bounds(const Part& part, const Affine& to_world);
+/// The cameras alone.
+std::vector<CameraPlacement> place_cameras(const Scene& scene);
 
 /// Gives a scene without camera one that frames what is in it, from slightly above the front, and one without light
 /// a plain white sky of radiance 1. Returns a line for each that it added.

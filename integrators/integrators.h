@@ -1,0 +1,26 @@
+/// The integrators by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/session/integrator.h"
+
+namespace parian {
+
+/// Which samples find direct light: lights alone, directions of the BSDF alone, or both combined by multiple importance
+/// sampling. Lights that only sampling them can find (point, spot, directional) are sampled in all three.
+enum class Strategy : std::uint8_t { mis, light, bsdf };
+
+struct IntegratorSettings {
+  Strategy strategy = Strategy::mis;
+  int max_depth = 100;           // scattering events of a path at most
+  float occlusion_distance = 0;  // ao: how far an occluder counts; 0: any distance
+};
+
+/// `name` is one of integrator_names(); throws UsageError otherwise.
+std::unique_ptr<Integrator> make_integrator(const std::string& name, const IntegratorSettings& settings);
+std::vector<std::string> integrator_names();
+
+}  // namespace parian
