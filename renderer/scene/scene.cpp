@@ -1,0 +1,88 @@
+#include "renderer/scene/scene.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace parian {
+namespace {
+
+void shift(int& index, std::size_t by) {
+  if (index != kNone) index += int(by);
+}
+
+template <class T>
+void extend(std::vector<T>& target, const std::vector<T>& source) {
+  target.insert(target.end(), source.begin(), source.end());
+}
+
+void shift_textures(Material& material, std::size_t by) {
+  for (TextureRef* ref :
+       {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+        &material.emission_texture, &material.specular_texture, &material.specular_color_texture}) {
+    shift(ref->texture, by);
+  }
+}
+
+}  // namespace
+
+Mat4d Transform::to_matrix() const {
+  if (matrix) return Mat4d(*matrix);
+  // The rows are the images of the axes: those of the rotation matrix of a unit quaternion, times the scale.
+  const double length = std::sqrt(double(rotation.r) * rotation.r + Vec3d(rotation.v).dot(Vec3d(rotation.v)));
+  const double w = rotation.r / length;
+  const Vec3d q = Vec3d(rotation.v) / length;
+  const Vec3d s(scale), t(translation);
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+  const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+  const double wx = w * q.x, wy = w * q.y, wz = w * q.z;
+  return {s.x * (1 - 2 * (yy + zz)),
+          s.x * 2 * (xy + wz),
+          s.x * 2 * (xz - wy),
+          0,
+          s.y * 2 * (xy - wz),
+          s.y * (1 - 2 * (xx + zz)),
+          s.y * 2 * (yz + wx),
+          0,
+          s.z * 2 * (xz + wy),
+          s.z * 2 * (yz - wx),
+          s.z * (1 - 2 * (xx + yy)),
+          0,
+          t.x,
+          t.y,
+          t.z,
+          1};
+}
+
+void append(Scene& scene, const Scene& other) {
+  const std::size_t nodes = scene.nodes.size(), meshes = scene.meshes.size(),
+                    materials = scene.materials.size(), textures = scene.textures.size(),
+                    images = scene.images.size(), cameras = scene.cameras.size(),
+                    lights = scene.lights.size();
+  // A copy first: `other` may be `scene` itself. It shares all arrays.
+  Scene added = other;
+  for (Node& node : added.nodes) {
+    for (int& child : node.children) shift(child, nodes);
+    shift(node.mesh, meshes);
+    shift(node.camera, cameras);
+    shift(node.light, lights);
+  }
+  for (int& root : added.roots) shift(root, nodes);
+  for (Mesh& mesh : added.meshes) {
+    for (Primitive& primitive : mesh.primitives) shift(primitive.material, materials);
+  }
+  for (Material& material : added.materials) shift_textures(material, textures);
+  for (Texture& texture : added.textures) shift(texture.image, images);
+  shift(added.environment.image, images);
+
+  extend(scene.nodes, added.nodes);
+  extend(scene.roots, added.roots);
+  extend(scene.meshes, added.meshes);
+  extend(scene.materials, added.materials);
+  extend(scene.textures, added.textures);
+  extend(scene.images, added.images);
+  extend(scene.cameras, added.cameras);
+  extend(scene.lights, added.lights);
+  if (is_black(scene.environment.radiance)) scene.environment = added.environment;
+}
+
+}  // namespace parian

@@ -1,0 +1,25 @@
+#include "scene_io/gltf.h"
+
+#include "scene_io/gltf_read.h"
+#include "scene_io/gltf_schema.h"
+
+namespace parian {
+
+Scene load_gltf(const std::string& path, std::vector<std::string>& warnings) {
+  const GltfDocument document = read_document(path);
+  Warnings notes(path, warnings);
+  for (const std::string& name : document.model.extensionsUsed) {
+    if (!reads_extension(name)) notes.add(name + " is not supported and is ignored");
+  }
+  Scene scene;
+  AccessorReader accessors(document);
+  read_materials(document, scene, notes);
+  read_meshes(document, accessors, scene, notes);
+  read_cameras(document, scene, notes);
+  read_lights(document, scene);
+  read_nodes(document, accessors, scene, notes);
+  validate(scene, path);
+  return scene;
+}
+
+}  // namespace parian

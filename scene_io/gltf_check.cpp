@@ -1,0 +1,159 @@
+/// check_document(): what a schema cannot say, the relations between the parts of a document.
+#include <algorithm>
+#include <cstdint>
+
+#include "scene_io/gltf_document.h"
+
+namespace parian {
+namespace {
+
+// An accessor without bytes is all zeros: a few characters can claim any count. This many elements together
+// are enough for any mesh that is worth writing down as sparse.
+constexpr std::size_t kMaxZeroElements = std::size_t(1) << 24;
+
+std::size_t component_bytes(int component_type) {
+  return std::size_t(tinygltf::GetComponentSizeInBytes(std::uint32_t(component_type)));
+}
+
+void check_buffer_views(const GltfDocument& document) {
+  const auto& views = document.model.bufferViews;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::size_t size = document.buffers[std::size_t(views[i].buffer)].size();
+    if (views[i].byteOffset > size || views[i].byteLength > size - views[i].byteOffset) {
+      document.fail(fmt::format("/bufferViews/{}/byteLength", i),
+                    fmt::format("expected byteOffset + byteLength of at most {}, the length of buffer {}",
+                                size, views[i].buffer));
+    }
+  }
+}
+
+// Whether `count` elements fit, without a product that could overflow.
+bool fits(std::size_t view_bytes, std::size_t offset, std::size_t count, std::size_t stride,
+          std::size_t element) {
+  return offset <= view_bytes && element <= view_bytes - offset &&
+         (count - 1) <= (view_bytes - offset - element) / stride;
+}
+
+void check_sparse(const GltfDocument& document, const tinygltf::Accessor& accessor,
+                  const std::string& where) {
+  const auto& sparse = accessor.sparse;
+  const auto check_part = [&](int view, int offset, std::size_t element, const char* name) {
+    const std::size_t bytes = document.model.bufferViews[std::size_t(view)].byteLength;
+    if (!fits(bytes, std::size_t(offset), std::size_t(sparse.count), element, element)) {
+      document.fail(fmt::format("{}/sparse/{}", where, name),
+                    fmt::format("expected {} elements inside the {} bytes of bufferView {}", sparse.count,
+                                bytes, view));
+    }
+  };
+  if (std::size_t(sparse.count) > accessor.count) {
+    document.fail(where + "/sparse/count",
+                  fmt::format("expected at most {}, the accessor's count", accessor.count));
+  }
+  check_part(sparse.indices.bufferView, sparse.indices.byteOffset,
+             component_bytes(sparse.indices.componentType), "indices");
+  check_part(sparse.values.bufferView, sparse.values.byteOffset, element_bytes(accessor), "values");
+}
+
+void check_accessors(const GltfDocument& document) {
+  std::size_t zeros = 0;
+  for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+    const auto& accessor = document.model.accessors[i];
+    const std::string where = fmt::format("/accessors/{}", i);
+    if (accessor.bufferView < 0) {
+      if (accessor.count > kMaxZeroElements - zeros) {
+        document.fail(
+            where + "/count",
+            fmt::format("expected at most {} elements in accessors without a bufferView", kMaxZeroElements));
+      }
+      zeros += accessor.count;
+    } else {
+      const auto& view = document.model.bufferViews[std::size_t(accessor.bufferView)];
+      const std::size_t element = element_bytes(accessor);
+      const std::size_t stride = view.byteStride ? view.byteStride : element;
+      if (stride < element) {
+        document.fail(fmt::format("/bufferViews/{}/byteStride", accessor.bufferView),
+                      fmt::format("expected at least {}, the element size of accessor {}", element, i));
+      }
+      if (!fits(view.byteLength, accessor.byteOffset, accessor.count, stride, element)) {
+        document.fail(
+            where + "/count",
+            fmt::format("expected elements inside the {} bytes of bufferView {}, not {} of "
+                        "stride {} from byte {}",
+                        view.byteLength, accessor.bufferView, accessor.count, stride, accessor.byteOffset));
+      }
+    }
+    if (accessor.sparse.isSparse) check_sparse(document, accessor, where);
+  }
+}
+
+// Every node has at most one parent; then a cycle can only be a whole component without a root, which a walk
+// from the roots does not reach.
+void check_nodes(const GltfDocument& document) {
+  const auto& nodes = document.model.nodes;
+  std::vector<bool> has_parent(nodes.size(), false);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t c = 0; c < nodes[i].children.size(); ++c) {
+      const auto child = std::size_t(nodes[i].children[c]);
+      if (has_parent[child]) {
+        document.fail(fmt::format("/nodes/{}/children/{}", i, c),
+                      fmt::format("expected a node without another parent, {} has one", child));
+      }
+      has_parent[child] = true;
+    }
+  }
+  std::vector<bool> reached(nodes.size(), false);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!has_parent[i]) open.push_back(i);
+  }
+  while (!open.empty()) {
+    const std::size_t node = open.back();
+    open.pop_back();
+    reached[node] = true;
+    for (const int child : nodes[node].children) open.push_back(std::size_t(child));
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!reached[i])
+      document.fail(fmt::format("/nodes/{}/children", i), "expected no cycle, the node is its own ancestor");
+  }
+  const auto& scenes = document.model.scenes;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    std::vector<int> listed = scenes[s].nodes;
+    std::sort(listed.begin(), listed.end());
+    for (std::size_t i = 0; i < scenes[s].nodes.size(); ++i) {
+      const int node = scenes[s].nodes[i];
+      const auto [first, last] = std::equal_range(listed.begin(), listed.end(), node);
+      if (has_parent[std::size_t(node)] || last - first != 1) {
+        document.fail(fmt::format("/scenes/{}/nodes/{}", s, i), "expected a root node, listed once");
+      }
+    }
+  }
+}
+
+void check_cameras(const GltfDocument& document) {
+  for (std::size_t i = 0; i < document.model.cameras.size(); ++i) {
+    const auto& camera = document.model.cameras[i];
+    const bool perspective = camera.type == "perspective";
+    const double znear = perspective ? camera.perspective.znear : camera.orthographic.znear;
+    const double zfar = perspective ? camera.perspective.zfar : camera.orthographic.zfar;
+    if (zfar != 0 && zfar <= znear) {  // 0: a perspective camera without zfar
+      document.fail(fmt::format("/cameras/{}/{}/zfar", i, camera.type), "expected a number above znear");
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t element_bytes(const tinygltf::Accessor& accessor) {
+  return component_bytes(accessor.componentType) *
+         std::size_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)));
+}
+
+void check_document(const GltfDocument& document) {
+  check_buffer_views(document);
+  check_accessors(document);
+  check_nodes(document);
+  check_cameras(document);
+}
+
+}  // namespace parian

@@ -1,0 +1,43 @@
+/// The parts of load_gltf(): each turns one kind of thing in a checked document into scene data, in the
+/// file's order, so that the file's indices hold in the scene (but for textures and images: only those that
+/// are used). All throw InputError.
+#pragma once
+
+#include "renderer/scene/scene.h"
+#include "scene_io/gltf_accessor.h"
+#include "scene_io/gltf_document.h"
+
+namespace parian {
+
+/// Materials with the textures and images that they and the environment use. Images are decoded in parallel.
+void read_materials(const GltfDocument& document, Scene& scene, Warnings& warnings);
+
+/// Decodes the images that `used` names (indices into the document's images), in that order.
+std::vector<Image> read_images(const GltfDocument& document, const std::vector<int>& used);
+
+/// Triangle meshes. Primitives without material get one default material, appended to the scene's.
+void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
+
+/// Triangles of glTF mode 4 (list), 5 (strip) or 6 (fan), of `indices` or of all vertices where that is
+/// kNone; `where` is the primitive's JSON path.
+SharedArray<Triangle> read_triangles(AccessorReader& accessors, const GltfDocument& document, int indices,
+                                     int mode, std::size_t vertices, const std::string& where);
+
+/// Normals as unit vectors; one of length zero becomes that of a triangle at its vertex.
+SharedArray<Vec3f> unit_normals(SharedArray<Vec3f> normals, const Primitive& primitive);
+
+/// Tangents with unit xyz and w of 1 or -1; one of length zero becomes any direction across the normal.
+SharedArray<Vec4f> unit_tangents(SharedArray<Vec4f> tangents, const Primitive& primitive);
+
+void read_cameras(const GltfDocument& document, Scene& scene, Warnings& warnings);
+
+/// Punctual lights, then area lights.
+void read_lights(const GltfDocument& document, Scene& scene);
+
+/// Nodes, and as roots those of the default scene.
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
+
+/// The index of the scene to draw, or kNone where the document has none.
+int default_scene(const GltfDocument& document);
+
+}  // namespace parian

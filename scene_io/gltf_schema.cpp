@@ -1,0 +1,245 @@
+#include "scene_io/gltf_schema.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <set>
+#include <utility>
+
+#include "renderer/base/error.h"
+#include "scene_io/gltf_field.h"
+
+namespace parian {
+namespace {
+
+constexpr double kMaxInt = 2147483647;  // what tinygltf holds in an int
+constexpr double kHalfPi = 1.5707964;   // the float above pi / 2
+constexpr double kBelowPi = 3.1415925;
+
+/// A textureInfo: the reference to a texture, with what `more` members its place in the material adds.
+Field texture(std::string key, std::vector<Field> more = {}) {
+  Field field = object(
+      std::move(key),
+      {index("index", "/textures").required(), integer("texCoord").between(0, kMaxInt),
+       object("extensions",
+              {object("KHR_texture_transform", {numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                                integer("texCoord").between(0, kMaxInt)})})});
+  for (Field& member : more) field.fields.push_back(std::move(member));
+  return field;
+}
+
+Field accessors() {
+  return list("accessors",
+              {index("bufferView", "/bufferViews"), integer("byteOffset"),
+               choice("componentType", {5120, 5121, 5122, 5123, 5125, 5126}).required(), flag("normalized"),
+               integer("count").at_least(1).required(),
+               text("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}).required(),
+               object("sparse", {integer("count").between(1, kMaxInt).required(),
+                                 object("indices", {index("bufferView", "/bufferViews").required(),
+                                                    integer("byteOffset").between(0, kMaxInt),
+                                                    choice("componentType", {5121, 5123, 5125}).required()})
+                                     .required(),
+                                 object("values", {index("bufferView", "/bufferViews").required(),
+                                                   integer("byteOffset").between(0, kMaxInt)})
+                                     .required()})});
+}
+
+Field buffer_views() {
+  return list("bufferViews",
+              {index("buffer", "/buffers").required(), integer("byteOffset"),
+               integer("byteLength").at_least(1).required(), integer("byteStride").between(4, 252)});
+}
+
+Field cameras() {
+  return list(
+      "cameras",
+      {text("name"), text("type", {"perspective", "orthographic"}).required(),
+       object("perspective",
+              {number("yfov").between(1e-6, kBelowPi).required(), number("aspectRatio").positive(),
+               number("znear").positive().required(), number("zfar").positive()}),
+       object("orthographic", {number("xmag").positive().required(), number("ymag").positive().required(),
+                               number("znear").at_least(0).required(), number("zfar").positive().required()}),
+       object("extensions", {object("EXT_camera_physical",
+                                    {number("focalLength").positive().required(),
+                                     numbers("sensorSize", 2).positive().required(),
+                                     number("fStop").positive(), number("focusDistance").at_least(0)})})});
+}
+
+Field material_extensions() {
+  return object("extensions",
+                {object("KHR_materials_emissive_strength", {number("emissiveStrength").at_least(0)}),
+                 object("KHR_materials_ior", {number("ior").at_least(0)}),
+                 object("KHR_materials_specular",
+                        {number("specularFactor").between(0, 1), texture("specularTexture"),
+                         numbers("specularColorFactor", 3).at_least(0), texture("specularColorTexture")}),
+                 object("KHR_materials_unlit", {})});
+}
+
+Field materials() {
+  return list("materials",
+              {text("name"),
+               object("pbrMetallicRoughness",
+                      {numbers("baseColorFactor", 4).between(0, 1), texture("baseColorTexture"),
+                       number("metallicFactor").between(0, 1), number("roughnessFactor").between(0, 1),
+                       texture("metallicRoughnessTexture")}),
+               texture("normalTexture", {number("scale")}), numbers("emissiveFactor", 3).between(0, 1),
+               texture("emissiveTexture"), text("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
+               number("alphaCutoff").at_least(0), flag("doubleSided"), material_extensions()});
+}
+
+Field meshes() {
+  return list("meshes", {text("name"),
+                         list("primitives", {index_map("attributes", "/accessors").required(),
+                                             index("indices", "/accessors"), index("material", "/materials"),
+                                             choice("mode", {0, 1, 2, 3, 4, 5, 6}), list("targets", {})})
+                             .required()});
+}
+
+Field nodes() {
+  return list(
+      "nodes",
+      {text("name"), indices("children", "/nodes"), index("mesh", "/meshes"), index("camera", "/cameras"),
+       integer("skin").between(0, kMaxInt), numbers("matrix", 16), numbers("translation", 3),
+       numbers("rotation", 4), numbers("scale", 3),
+       object("extensions",
+              {object("KHR_lights_punctual",
+                      {index("light", "/extensions/KHR_lights_punctual/lights").required()}),
+               object("EXT_lights_area", {index("light", "/extensions/EXT_lights_area/lights").required()}),
+               object("EXT_mesh_gpu_instancing", {index_map("attributes", "/accessors").required()})})});
+}
+
+Field lights() {
+  return object(
+      "extensions",
+      {object("KHR_lights_punctual",
+              {list("lights", {text("name"), text("type", {"point", "spot", "directional"}).required(),
+                               numbers("color", 3).at_least(0), number("intensity").at_least(0),
+                               number("range").positive(),
+                               object("spot", {number("innerConeAngle").between(0, kHalfPi),
+                                               number("outerConeAngle").between(0, kHalfPi)})})
+                   .required()}),
+       object("EXT_lights_area",
+              {list("lights", {text("name"), text("type", {"rect", "disk"}).required(),
+                               numbers("color", 3).at_least(0), number("intensity").at_least(0),
+                               number("size").positive(), object("rect", {number("aspect").positive()})})
+                   .required()}),
+       object("EXT_lights_environment",
+              {list("environments", {index("source", "/images").required(), number("intensity").at_least(0),
+                                     text("frontside", {"+X", "-X", "+Z", "-Z"})})
+                   .required()})});
+}
+
+std::vector<Field> document_fields() {
+  constexpr std::array wraps{33071, 33648, 10497};
+  const std::vector<int> wrap(wraps.begin(), wraps.end());
+  return {
+      object("asset", {text("version").required(), text("minVersion")}).required(),
+      texts("extensionsUsed"),
+      texts("extensionsRequired"),
+      accessors(),
+      buffer_views(),
+      list("buffers", {text("uri"), integer("byteLength").at_least(1).required()}),
+      cameras(),
+      list("images", {text("name"), text("uri"), index("bufferView", "/bufferViews")}),
+      materials(),
+      meshes(),
+      nodes(),
+      list("samplers", {choice("magFilter", {9728, 9729}), choice("wrapS", wrap), choice("wrapT", wrap)}),
+      list("scenes", {text("name"), indices("nodes", "/nodes"),
+                      object("extensions",
+                             {object("EXT_lights_environment",
+                                     {index("environment", "/extensions/EXT_lights_environment/environments")
+                                          .required()})})}),
+      index("scene", "/scenes"),
+      list("textures", {index("source", "/images"), index("sampler", "/samplers"),
+                        object("extensions", {object("EXT_texture_webp", {index("source", "/images")})})}),
+      lights(),
+  };
+}
+
+void check_required(const nlohmann::json& names, const std::string& file) {
+  for (std::size_t i = 0; names.is_array() && i < names.size(); ++i) {
+    if (!names[i].is_string() || reads_extension(names[i])) continue;
+    throw InputError(file, fmt::format("/extensionsRequired/{}", i),
+                     fmt::format("expected an extension that Parian reads, {} is not one",
+                                 names[i].get_ref<const std::string&>()));
+  }
+}
+
+void check_version(const nlohmann::json& asset, const std::string& file) {
+  const auto require = [&](const char* key, const auto& accepts, const char* expected) {
+    if (asset.contains(key) && !accepts(asset[key].template get_ref<const std::string&>())) {
+      throw InputError(file, fmt::format("/asset/{}", key), expected);
+    }
+  };
+  require(
+      "version", [](const std::string& v) { return v.starts_with("2."); }, "expected glTF version 2");
+  require(
+      "minVersion", [](const std::string& v) { return v == "2.0"; }, "expected at most glTF version 2.0");
+}
+
+/// Relations that tinygltf would refuse without saying where.
+void check_relations(const nlohmann::json& document, const std::string& file) {
+  static const nlohmann::json kNothing = nlohmann::json::array();
+  const auto array = [&](const char* key) -> const nlohmann::json& {
+    return document.contains(key) ? document[key] : kNothing;
+  };
+  const auto fail = [&](const std::string& where, const char* expected) {
+    throw InputError(file, where, expected);
+  };
+  const auto need_member = [&](const nlohmann::json& list, const char* where) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto& type = list[i]["type"].get_ref<const std::string&>();
+      const bool needed = type == "perspective" || type == "orthographic" || type == "spot";
+      if (needed && !list[i].contains(type)) {
+        fail(fmt::format("{}/{}/{}", where, i, type), "expected an object, since type says so");
+      }
+    }
+  };
+  need_member(array("cameras"), "/cameras");
+  const std::string lights = "/extensions/KHR_lights_punctual/lights";
+  const nlohmann::json::json_pointer pointer(lights);
+  if (document.contains(pointer)) need_member(document[pointer], lights.c_str());
+
+  const auto& views = array("bufferViews");
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].value("byteStride", 4) % 4 != 0) {
+      fail(fmt::format("/bufferViews/{}/byteStride", i), "expected a multiple of 4");
+    }
+  }
+  const auto& meshes = array("meshes");
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const auto& primitives = meshes[m]["primitives"];
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const bool indexed = primitives[p].contains("indices");
+      if (indexed &&
+          !document["accessors"][primitives[p]["indices"].get<std::size_t>()].contains("bufferView")) {
+        fail(fmt::format("/meshes/{}/primitives/{}/indices", m, p), "expected an accessor with a bufferView");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool reads_extension(const std::string& name) {
+  static const std::set<std::string> names = {
+      "EXT_camera_physical",     "EXT_lights_area",       "EXT_lights_environment",
+      "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_lights_punctual",
+      "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+      "KHR_mesh_quantization",   "KHR_texture_transform", "KHR_materials_specular"};
+  return names.contains(name);
+}
+
+void conform(nlohmann::json& document, const std::string& file) {
+  // First, since such an extension may change what the rest of the document means.
+  if (document.is_object() && document.contains("extensionsRequired")) {
+    check_required(document["extensionsRequired"], file);
+  }
+  check_fields(document, document_fields(), file);
+  check_version(document["asset"], file);
+  check_relations(document, file);
+}
+
+}  // namespace parian

@@ -1,0 +1,19 @@
+/// What a glTF document may look like: names, types, ranges and indices, before anything reads it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace parian {
+
+/// Whether Parian reads the glTF extension of this name.
+bool reads_extension(const std::string& name);
+
+/// Checks the document and reduces it to what Parian reads: afterwards every member is of the type that glTF
+/// gives it and in its range, every index is inside the array it points into, integers are stored as integers
+/// and other numbers as finite doubles, and members, extras and extensions that are not read are gone. Throws
+/// InputError naming the JSON path and what was expected there.
+void conform(nlohmann::json& document, const std::string& file);
+
+}  // namespace parian
