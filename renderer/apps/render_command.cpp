@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "integrators/integrators.h"
+#include "renderer/apps/checkpoint.h"
+#include "renderer/apps/commands.h"
+#include "renderer/apps/progress_bar.h"
+#include "renderer/apps/stats.h"
+#include "renderer/base/error.h"
+#include "renderer/base/file.h"
+#include "renderer/base/parallel.h"
+#include "renderer/color/display.h"
+#include "scene_io/gltf.h"
+#include "scene_io/image_io.h"
+
+namespace parian {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct RenderOptions {
+  std::vector<std::string> scenes;
+  std::string output, display, view, size, camera, environment, stats, checkpoint, resume;
+  std::string integrator = "path";
+  std::vector<std::string> layers;
+  RenderSettings settings;
+  IntegratorSettings integrator_settings;
+  float exposure = 0;
+  int threads = 0;
+  bool quiet = false;
+};
+
+std::atomic<bool> interrupted{false};
+
+void on_signal(int) { interrupted = true; }
+
+double lap(Clock::time_point& start) {
+  const Clock::time_point now = Clock::now();
+  return std::chrono::duration<double>(now - std::exchange(start, now)).count();
+}
+
+const std::map<std::string, Strategy> kStrategies{{"mis", Strategy::mis}, {"light", Strategy::light}, {"bsdf", Strategy::bsdf}};
+const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
+const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris}, {"box", FilterKind::box}};
+
+/// Adds an option whose value is one of the names of `choices`.
+template <class T>
+void add_choice(CLI::App& app, const std::string& name, T& value, const std::map<std::string, T>& choices,
+                const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& entry : choices) names.push_back(entry.first);
+  app.add_option_function<std::string>(
+         name, [&value, &choices](const std::string& chosen) { value = choices.at(chosen); },
+         fmt::format("{}: {}", help, fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names).description(""))
+      ->type_name("NAME");
+}
+
+/// WIDTHxHEIGHT, each from 1 to 65536.
+Vec2i parse_size(const std::string& text) {
+  Vec2i size;
+  char rest;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
+      size.x > 65536 || size.y > 65536)
+    throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 65536", text));
+  return size;
+}
+
+/// The camera by name or by number, as an index into the placed cameras.
+int find_camera(const Scene& scene, const std::vector<CameraPlacement>& cameras, const std::string& wanted) {
+  if (wanted.empty()) return 0;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::string &camera = scene.cameras[cameras[i].camera].name, &node = scene.nodes[cameras[i].node].name;
+    if (wanted == camera || wanted == node || wanted == std::to_string(i)) return int(i);
+    names.push_back(fmt::format("{} \"{}\"", i, node.empty() ? camera : node));
+  }
+  throw UsageError(fmt::format("--camera {}: no such camera; there are: {}", wanted, fmt::join(names, ", ")));
+}
+
+/// 960 pixels wide in the camera's own shape, 16:9 where it has none.
+Vec2i default_size(const Camera& camera) {
+  const float aspect = camera.projection == Projection::orthographic ? camera.xmag / camera.ymag
+                       : camera.aspect > 0                           ? camera.aspect
+                                                                     : 16.0f / 9;
+  return {960, std::clamp(int(std::lround(960 / aspect)), 1, 65536)};
+}
+
+const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal", "depth", "object"};
+
+FilmLayers film_layers(const std::vector<std::string>& names) {
+  FilmLayers layers{false, false, false};
+  for (const std::string& name : names) {
+    if (name == "none") continue;
+    if (std::ranges::find(kLayerNames, name) == kLayerNames.end())
+      throw UsageError(fmt::format("--aov {}: no such layer; there are: {}, none", name, fmt::join(kLayerNames, ", ")));
+    (name == "variance" ? layers.variance : name == "samples" ? layers.sample_count : layers.features) = true;
+  }
+  return layers;
+}
+
+/// Leaves the beauty and the layers asked for; the film keeps some together.
+Picture select_layers(const Picture& all, const std::vector<std::string>& names) {
+  std::vector<std::size_t> kept;
+  Picture picture{all.width, all.height, {}, {}, all.metadata};
+  for (std::size_t c = 0; c < all.channels.size(); ++c) {
+    const std::string layer = all.channels[c].substr(0, all.channels[c].find('.'));
+    if (c >= 3 && std::ranges::find(names, layer) == names.end()) continue;
+    kept.push_back(c);
+    picture.channels.push_back(all.channels[c]);
+  }
+  picture.pixels.reserve(kept.size() * all.width * all.height);
+  for (std::size_t first = 0; first < all.pixels.size(); first += all.channels.size())
+    for (const std::size_t c : kept) picture.pixels.push_back(all.pixels[first + c]);
+  return picture;
+}
+
+void check_writable(const std::string& path) {
+  if (path.empty()) return;
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(path, "", fmt::format("cannot be written: there is no folder {}", folder.string()));
+  if (std::filesystem::is_directory(path)) throw InputError(path, "", "cannot be written: it is a folder");
+}
+
+/// Refuses before hours of rendering what could only fail after them.
+void check_outputs(const RenderOptions& o) {
+  if (o.output.empty() && o.display.empty()) throw UsageError("render: expected -o FILE.exr, --display FILE.png, or both");
+  if (!o.output.empty() && std::filesystem::path(o.output).extension() != ".exr")
+    throw UsageError(fmt::format("-o {}: expected a name that ends in .exr", o.output));
+  for (const std::string* path : {&o.output, &o.display, &o.stats, &o.checkpoint}) check_writable(*path);
+  if (o.display.empty()) return;
+  const std::string extension = std::filesystem::path(o.display).extension();
+  if (extension != ".png" && extension != ".jpg" && extension != ".jpeg")
+    throw UsageError(fmt::format("--display {}: expected a name that ends in .png or .jpg", o.display));
+  if (const std::vector<std::string> views = display_views();
+      !o.view.empty() && std::ranges::find(views, o.view) == views.end())
+    throw UsageError(fmt::format("--view {}: no such view; there are: {}", o.view, fmt::join(views, ", ")));
+}
+
+std::shared_ptr<const Scene> load(const RenderOptions& o) {
+  std::vector<std::string> warnings;
+  auto scene = std::make_shared<Scene>(load_scene(o.scenes, warnings));
+  if (!o.environment.empty()) {
+    scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
+    scene->images.push_back(read_image(o.environment));
+  }
+  for (const std::string& note : add_missing_camera_and_light(*scene)) warnings.push_back(note);
+  if (!o.quiet)
+    for (const std::string& warning : warnings) fmt::print(stderr, "parian: note: {}\n", warning);
+  return scene;
+}
+
+/// What a checkpoint must agree on: all that decides the value of a sample.
+std::string checkpoint_key(const RenderOptions& o) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::string& path : o.scenes)
+    for (const char c : read_file(path)) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3u;
+  const RenderSettings& s = o.settings;
+  return fmt::format("scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
+                     "depth {} layers {}{}{}",
+                     hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter),
+                     o.integrator, int(o.integrator_settings.strategy), o.integrator_settings.max_depth,
+                     s.layers.variance, s.layers.sample_count, s.layers.features);
+}
+
+/// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
+bool run(Session& session, const RenderOptions& o, const std::string& key) {
+  constexpr double kCheckpointInterval = 60;  // seconds
+  ProgressBar bar(o.quiet, o.settings.seconds);
+  double next_checkpoint = kCheckpointInterval;
+  session.start();
+  while (session.progress().running && !interrupted) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    bar.show(session);
+    if (!o.checkpoint.empty() && session.progress().seconds > next_checkpoint) {
+      write_checkpoint(o.checkpoint, key, session.film());
+      next_checkpoint += kCheckpointInterval;
+    }
+  }
+  if (interrupted) session.cancel();
+  bar.finish();
+  session.wait();
+  if (!o.checkpoint.empty()) write_checkpoint(o.checkpoint, key, session.film());
+  return interrupted;
+}
+
+void write_pictures(const Session& session, const RenderOptions& o, double render_seconds) {
+  Picture picture = select_layers(session.snapshot(), o.layers);
+  picture.metadata = {{"parian:version", PARIAN_VERSION},
+                      {"parian:scene", fmt::format("{}", fmt::join(o.scenes, " "))},
+                      {"parian:integrator", o.integrator},
+                      {"parian:spp", std::to_string(session.film().min_samples())},
+                      {"parian:seed", std::to_string(o.settings.seed)},
+                      {"parian:maxDepth", std::to_string(o.integrator_settings.max_depth)},
+                      {"parian:renderSeconds", fmt::format("{:.2f}", render_seconds)}};
+  if (!o.output.empty()) write_exr(picture, o.output);
+  if (!o.display.empty()) write_display_image(apply_display(picture, o.view, o.exposure), o.display);
+}
+
+int render(RenderOptions o) {
+  check_outputs(o);
+  if (o.threads > 0) set_thread_count(o.threads);
+  o.settings.layers = film_layers(o.layers);
+  std::unique_ptr<Integrator> integrator = make_integrator(o.integrator, o.integrator_settings);
+
+  PhaseSeconds seconds;
+  Clock::time_point clock = Clock::now();
+  const std::shared_ptr<const Scene> scene = load(o);
+  const std::vector<CameraPlacement> cameras = place_cameras(*scene);
+  o.settings.camera = find_camera(*scene, cameras, o.camera);
+  const Vec2i size =
+      o.size.empty() ? default_size(scene->cameras[cameras[o.settings.camera].camera]) : parse_size(o.size);
+  o.settings.width = size.x;
+  o.settings.height = size.y;
+  const std::string key = o.checkpoint.empty() && o.resume.empty() ? "" : checkpoint_key(o);
+  seconds.load = lap(clock);
+
+  Session session(scene, o.settings, std::move(integrator));
+  if (!o.resume.empty()) read_checkpoint(o.resume, key, session.film());
+  seconds.build = lap(clock);
+
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const bool stopped = run(session, o, key);
+  seconds.render = lap(clock);
+
+  write_pictures(session, o, seconds.render);
+  seconds.write = lap(clock);
+  const SessionStats stats = session.stats();
+  if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, session.progress()));
+  if (stats.rays.dropped > 0)
+    fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n", stats.rays.dropped,
+               stats.rays.camera);
+  if (!o.quiet)
+    fmt::print(stderr, "{}x{}, {} spp, noise {:.2f}%, {} ({:.0f} camera paths per CPU second)\n", size.x, size.y,
+               session.film().min_samples(), 100 * session.film().relative_noise(), format_duration(seconds.render),
+               stats.render_cpu_seconds > 0 ? double(stats.rays.camera) / stats.render_cpu_seconds : 0);
+  return stopped ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& app) {
+  CLI::App& c = *app.add_subcommand("render", "Render scenes to an EXR, and to a PNG through a display transform");
+  const auto options = std::make_shared<RenderOptions>();
+  RenderOptions& o = *options;
+  c.add_option("SCENE", o.scenes, ".gltf or .glb files; several are composed into one scene")->required();
+  c.add_option("-o,--output", o.output, "Linear Rec.709 EXR to write, with its layers")->type_name("FILE.exr");
+  c.add_option("--display", o.display, "Display-referred 8-bit picture to write")->type_name("FILE.png");
+  c.add_option("--view", o.view, "OpenColorIO view of --display; the config's first by default")->type_name("NAME");
+  c.add_option("--exposure", o.exposure, "Stops added before the view [0]")->check(CLI::Range(-100.0f, 100.0f).description(""));
+  c.add_option("--size", o.size, "Picture size; by default 960 wide in the camera's shape")->type_name("WxH");
+  c.add_option("--camera", o.camera, "Camera by name or number; the first by default")->type_name("NAME|INDEX");
+  c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")->type_name("FILE");
+  auto* spp = c.add_option("--spp", o.settings.spp, "Samples for each pixel [64]")->check(CLI::Range(1u, 1u << 30).description(""));
+  c.add_option("--time", o.settings.seconds, "Seconds to render instead of a number of samples")
+      ->check(CLI::Range(1e-3, 1e9).description(""))
+      ->excludes(spp);
+  c.add_option("--integrator", o.integrator, fmt::format("What to compute [path]: {}", fmt::join(integrator_names(), ", ")))
+      ->type_name("NAME");
+  add_choice(c, "--strategy", o.integrator_settings.strategy, kStrategies, "path: how direct light is found [mis]");
+  c.add_option("--max-depth", o.integrator_settings.max_depth, "path: scattering events of a path at most [100]")
+      ->check(CLI::Range(0, 1 << 20).description(""));
+  c.add_option("--ao-distance", o.integrator_settings.occlusion_distance,
+               "ao: metres within which an occluder counts; 0: any distance [0]")
+      ->check(CLI::Range(0.0f, std::numeric_limits<float>::max()).description(""));
+  add_choice(c, "--sampler", o.settings.sampler, kSamplers, "Random sequence [sobol]");
+  add_choice(c, "--filter", o.settings.filter, kFilters, "Reconstruction filter [blackman-harris]");
+  o.layers = {"variance"};
+  c.add_option("--aov", o.layers, fmt::format("Layers of the EXR [variance]: {}, none", fmt::join(kLayerNames, ", ")))
+      ->delimiter(',')
+      ->type_name("LIST");
+  c.add_option("--threads", o.threads, "Threads; all cores by default")->check(CLI::Range(1, 4096).description(""));
+  c.add_option("--seed", o.settings.seed, "Seed of the random sequence [0]");
+  c.add_option("--stats", o.stats, "JSON to write what the render cost to")->type_name("FILE.json");
+  c.add_option("--checkpoint", o.checkpoint, "File to keep the render's state in, once a minute and at the end")->type_name("FILE");
+  c.add_option("--resume", o.resume, "Checkpoint to go on from")->type_name("FILE");
+  c.add_flag("--quiet", o.quiet, "No progress and no notes");
+  return [options] { return render(*options); };
+}
+
+}  // namespace parian

@@ -1,0 +1,20 @@
+/// What a render cost, for --stats and the closing line.
+#pragma once
+
+#include <string>
+
+#include "renderer/session/session.h"
+
+namespace parian {
+
+struct PhaseSeconds {
+  double load = 0, build = 0, render = 0, write = 0;
+};
+
+/// As JSON: seconds per phase, CPU seconds of the render, rays by kind, camera paths per CPU second, bytes.
+std::string stats_json(const SessionStats& stats, const PhaseSeconds& seconds, const Progress& progress);
+
+/// Largest resident memory of this process so far.
+std::size_t peak_memory_bytes();
+
+}  // namespace parian

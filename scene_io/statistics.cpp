@@ -1,0 +1,95 @@
+#include "scene_io/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parian {
+namespace {
+
+// Embree's medium-quality BVH with its own copy of triangles and vertices, measured: docs/measurements.md.
+constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600;
+
+std::size_t bytes_of(const Primitive& p) {
+  return p.positions.bytes() + p.normals.bytes() + p.tangents.bytes() + p.uvs[0].bytes() + p.uvs[1].bytes() +
+         p.colors.bytes() + p.triangles.bytes();
+}
+
+std::string format_bytes(double bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1000;
+  return fmt::format("{:.{}f} {}", bytes, unit == 0 || bytes >= 100 ? 0 : 1, units[unit]);
+}
+
+const char* pixel_type_name(PixelType type) {
+  switch (type) {
+    case PixelType::u8:
+      return "8-bit";
+    case PixelType::u16:
+      return "16-bit";
+    case PixelType::f16:
+      return "half";
+    case PixelType::f32:
+      return "float";
+  }
+  return "";
+}
+
+}  // namespace
+
+SceneStatistics scene_statistics(const Scene& scene, const World& world) {
+  SceneStatistics s;
+  for (const Part& part : world.parts) {
+    s.triangles_stored += part.primitive->triangles.size();
+    s.vertices += part.primitive->positions.size();
+    s.geometry_bytes += bytes_of(*part.primitive);
+    s.alpha_primitives += part.alpha;
+  }
+  s.primitives = world.parts.size();
+  s.placements = world.placements.size();
+  for (const Placement& p : world.placements)
+    for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i) {
+      const Part& part = world.parts[p.first_part + i];
+      s.triangles_drawn += part.primitive->triangles.size();
+      if (part.emissive) s.emissive_triangles += part.primitive->triangles.size();
+    }
+  for (const Image& image : scene.images) s.image_bytes += image.pixels.bytes();
+  return s;
+}
+
+std::string describe(const Scene& scene, const World& world) {
+  const SceneStatistics s = scene_statistics(scene, world);
+  std::string text;
+  const auto line = [&](std::string_view name, const std::string& value) { text += fmt::format("{:<12} {}\n", name, value); };
+  line("triangles", fmt::format("{} stored in {} meshes, {} drawn by {} placements", s.triangles_stored,
+                                scene.meshes.size(), s.triangles_drawn, s.placements));
+  if (!world.bounds.isEmpty()) {
+    const Vec3f size = world.bounds.size(), center = world.bounds.center();
+    line("bounds", fmt::format("{:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g})", size.x, size.y, size.z,
+                               center.x, center.y, center.z));
+  }
+  line("materials", fmt::format("{}, {} primitives tested for alpha", scene.materials.size(), s.alpha_primitives));
+  line("lights", fmt::format("{} emissive triangles, {} rectangles and disks, {} punctual, {}", s.emissive_triangles,
+                             world.area_lights.size(), world.punctual_lights.size(),
+                             is_black(scene.environment.radiance)   ? "no environment"
+                             : scene.environment.image == kNone ? "a constant environment"
+                                                                    : "an environment map"));
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    const Camera& camera = scene.cameras[world.cameras[i].camera];
+    const std::string& node = scene.nodes[world.cameras[i].node].name;
+    line(fmt::format("camera {}", i), fmt::format("\"{}\", {}{}", node.empty() ? camera.name : node,
+                                                   camera.projection == Projection::perspective ? "perspective" : "orthographic",
+                                                   camera.lens ? ", thin lens" : ""));
+  }
+  for (const Image& image : scene.images)
+    if (!image.pixels.empty())
+      line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height, image.channels,
+                                pixel_type_name(image.type), format_bytes(double(image.pixels.bytes()))));
+  const double accel = kAccelBytesPerTriangle * double(s.triangles_stored) + kAccelBytesPerPlacement * double(s.placements);
+  line("memory", fmt::format("{} geometry, {} images, about {} acceleration structure", format_bytes(double(s.geometry_bytes)),
+                             format_bytes(double(s.image_bytes)), format_bytes(accel)));
+  return text;
+}
+
+}  // namespace parian
