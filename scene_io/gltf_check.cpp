@@ -1,6 +1,6 @@
 /// check_document(): what a schema cannot say, the relations between the parts of a document.
-#include <algorithm>
 #include <cstdint>
+#include <set>
 
 #include "scene_io/gltf_document.h"
 
@@ -86,45 +86,20 @@ void check_accessors(const GltfDocument& document) {
   }
 }
 
-// Every node has at most one parent; then a cycle can only be a whole component without a root, which a walk
-// from the roots does not reach.
-void check_nodes(const GltfDocument& document) {
-  const auto& nodes = document.model.nodes;
-  std::vector<bool> has_parent(nodes.size(), false);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (std::size_t c = 0; c < nodes[i].children.size(); ++c) {
-      const auto child = std::size_t(nodes[i].children[c]);
-      if (has_parent[child]) {
-        document.fail(fmt::format("/nodes/{}/children/{}", i, c),
-                      fmt::format("expected a node without another parent, {} has one", child));
-      }
-      has_parent[child] = true;
-    }
+// That the nodes form a forest is for validate() to see, which speaks of the same /nodes. The roots it sees
+// are no longer those of a scene in the file.
+void check_scenes(const GltfDocument& document) {
+  std::vector<bool> has_parent(document.model.nodes.size(), false);
+  for (const auto& node : document.model.nodes) {
+    for (const int child : node.children) has_parent[std::size_t(child)] = true;
   }
-  std::vector<bool> reached(nodes.size(), false);
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!has_parent[i]) open.push_back(i);
-  }
-  while (!open.empty()) {
-    const std::size_t node = open.back();
-    open.pop_back();
-    reached[node] = true;
-    for (const int child : nodes[node].children) open.push_back(std::size_t(child));
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!reached[i])
-      document.fail(fmt::format("/nodes/{}/children", i), "expected no cycle, the node is its own ancestor");
-  }
-  const auto& scenes = document.model.scenes;
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    std::vector<int> listed = scenes[s].nodes;
-    std::sort(listed.begin(), listed.end());
-    for (std::size_t i = 0; i < scenes[s].nodes.size(); ++i) {
-      const int node = scenes[s].nodes[i];
-      const auto [first, last] = std::equal_range(listed.begin(), listed.end(), node);
-      if (has_parent[std::size_t(node)] || last - first != 1) {
-        document.fail(fmt::format("/scenes/{}/nodes/{}", s, i), "expected a root node, listed once");
+  for (std::size_t s = 0; s < document.model.scenes.size(); ++s) {
+    std::set<int> listed;
+    for (std::size_t i = 0; i < document.model.scenes[s].nodes.size(); ++i) {
+      const int node = document.model.scenes[s].nodes[i];
+      if (has_parent[std::size_t(node)] || !listed.insert(node).second) {
+        document.fail(fmt::format("/scenes/{}/nodes/{}", s, i),
+                      "expected a node without a parent, listed once");
       }
     }
   }
@@ -152,7 +127,7 @@ std::size_t element_bytes(const tinygltf::Accessor& accessor) {
 void check_document(const GltfDocument& document) {
   check_buffer_views(document);
   check_accessors(document);
-  check_nodes(document);
+  check_scenes(document);
   check_cameras(document);
 }
 

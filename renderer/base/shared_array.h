@@ -34,7 +34,8 @@ class SharedArray {
 
   /// Bitwise equal contents.
   bool operator==(const SharedArray& other) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    // Not trivially copyable: Imath's vectors write their copy constructors out.
+    static_assert(std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>);
     return size_ == other.size_ &&
            (data_ == other.data_ || size_ == 0 || std::memcmp(data_, other.data_, bytes()) == 0);
   }
