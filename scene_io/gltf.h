@@ -8,8 +8,8 @@
 
 namespace parian {
 
-/// Reads the default scene of a .gltf or .glb file (external files and data URIs included), validated. Things that
-/// are skipped are named in `warnings`, one line each, each at most once a file. Throws InputError.
+/// Reads the default scene of a .gltf or .glb file (external files and data URIs included), validated. Things
+/// that are skipped are named in `warnings`, one line each, each at most once a file. Throws InputError.
 Scene load_gltf(const std::string& path, std::vector<std::string>& warnings);
 
 /// All files as one scene. Throws InputError.

@@ -14,18 +14,33 @@ namespace {
 
 using nlohmann::json;
 
-// No document nests deeper (extras are dropped as they are read), and what follows may recurse.
+// No document nests deeper, and what follows may recurse.
 constexpr int kMaxJsonDepth = 64;
 
-json parse_json(std::string_view text, const std::string& file) {
-  const auto keep = [&](int depth, json::parse_event_t event, json& value) {
-    if (depth > kMaxJsonDepth) {
-      throw InputError(file, "", fmt::format("expected JSON nested at most {} deep", kMaxJsonDepth));
+// How deep the brackets of a JSON text are nested, up to one more than the limit. Its own pass: the parser's
+// callback, which knows the depth too, takes time that grows with the square of an array's length.
+int bracket_depth(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size() && deepest <= kMaxJsonDepth; ++i) {
+    if (text[i] == '"') in_string = !in_string;
+    if (in_string) {
+      if (text[i] == '\\') ++i;
+    } else if (text[i] == '[' || text[i] == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if (text[i] == ']' || text[i] == '}') {
+      --depth;
     }
-    return event != json::parse_event_t::key || value.get_ref<const std::string&>() != "extras";
-  };
+  }
+  return deepest;
+}
+
+json parse_json(std::string_view text, const std::string& file) {
+  if (bracket_depth(text) > kMaxJsonDepth) {
+    throw InputError(file, "", fmt::format("expected JSON nested at most {} deep", kMaxJsonDepth));
+  }
   try {
-    return json::parse(text.begin(), text.end(), keep);
+    return json::parse(text.begin(), text.end());
   } catch (const json::exception& error) {
     // Drop the library's own prefix, "[json.exception.parse_error.101] ", and keep to one short line.
     std::string what = error.what();
@@ -47,7 +62,7 @@ std::span<const std::byte> load_buffer(GltfDocument& document, const json& buffe
     const auto& uri = buffer["uri"].get_ref<const std::string&>();
     try {
       document.storage.push_back(is_data_uri(uri) ? decode_data_uri(uri)
-                                                  : read_file(resolve_uri(uri, document.folder)));
+                                                  : read_asset_file(resolve_uri(uri, document.folder)));
     } catch (const std::runtime_error& error) {
       document.fail(where + "/uri", error.what());
     }
@@ -107,7 +122,7 @@ GltfDocument read_document(const std::string& path) {
                         .buffers = {},
                         .storage = {}};
   try {
-    document.storage.push_back(read_file(path));
+    document.storage.push_back(read_asset_file(path));
   } catch (const std::runtime_error& error) {
     document.fail("", error.what());
   }

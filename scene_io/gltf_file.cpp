@@ -92,7 +92,7 @@ std::string decode_percent(std::string_view uri) {
 
 }  // namespace
 
-SharedArray<std::byte> read_file(const std::filesystem::path& path) {
+SharedArray<std::byte> read_asset_file(const std::filesystem::path& path) {
   std::error_code error;
   // Also keeps out pipes and devices, which have no end or no size.
   if (!std::filesystem::is_regular_file(path, error)) {

@@ -12,7 +12,7 @@
 namespace parian {
 
 /// The whole content of a regular file. Throws std::runtime_error whose text says what was expected.
-SharedArray<std::byte> read_file(const std::filesystem::path& path);
+SharedArray<std::byte> read_asset_file(const std::filesystem::path& path);
 
 /// The JSON text of a .gltf or .glb, and the binary chunk of a .glb (empty where there is none): views of
 /// `bytes`.
