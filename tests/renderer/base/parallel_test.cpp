@@ -1,0 +1,60 @@
+#include "renderer/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace parian {
+namespace {
+
+TEST(ParallelFor, VisitsEachIndexOnce) {
+  for (const std::size_t count : {0, 1, 2, 7, 1000, 65537})
+    for (const std::size_t grain : {1, 7, 100000}) {
+      std::vector<std::atomic<int>> visits(count);
+      parallel_for(count, grain, [&](std::size_t i) { ++visits.at(i); });
+      for (const auto& v : visits) ASSERT_EQ(v, 1) << count << " by " << grain;
+    }
+}
+
+TEST(ParallelFor, RethrowsWhatABodyThrows) {
+  const auto throwing = [] {
+    parallel_for(1000, 1, [](std::size_t i) {
+      if (i == 500) throw std::out_of_range("the body's own");
+    });
+  };
+  EXPECT_THROW(throwing(), std::out_of_range);
+  std::atomic<int> visits = 0;
+  parallel_for(100, 1, [&](std::size_t) { ++visits; });
+  EXPECT_EQ(visits, 100) << "later loops run as before";
+}
+
+TEST(ParallelFor, Nests) {
+  std::atomic<int> visits = 0;
+  parallel_for(20, 1, [&](std::size_t) { parallel_for(30, 4, [&](std::size_t) { ++visits; }); });
+  EXPECT_EQ(visits, 600);
+}
+
+TEST(ThreadCount, LimitsTheThreadsOfALoop) {
+  EXPECT_GE(hardware_threads(), 1);
+  for (const int threads : {2, 1}) {
+    set_thread_count(threads);
+    EXPECT_EQ(thread_count(), threads);
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    parallel_for(200, 1, [&](std::size_t) {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+      const std::lock_guard lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    });
+    EXPECT_LE(int(seen.size()), threads);
+  }
+  set_thread_count(hardware_threads());
+}
+
+}  // namespace
+}  // namespace parian
