@@ -23,10 +23,10 @@ PixelFilter::PixelFilter(FilterKind kind) {
   }
   int step = 0;
   for (int i = 0; i <= kIntervals; ++i) {
-    const double target = cdf[kSteps] * i / kIntervals;
+    const double target = cdf[kSteps] * 0.5 * i * i / (double(kIntervals) * kIntervals);
     while (step < kSteps - 1 && cdf[step + 1] < target) ++step;
     const double within = (target - cdf[step]) / (cdf[step + 1] - cdf[step]);
-    inverse_cdf_[i] = float(radius * (2 * (step + within) / kSteps - 1));
+    distance_[i] = float(radius * (1 - 2 * (step + within) / kSteps));
   }
 }
 

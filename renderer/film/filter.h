@@ -13,7 +13,7 @@ enum class FilterKind : std::uint8_t { blackman_harris, box };
 
 class PixelFilter {
  public:
-  /// `radius` in pixels; by default 1.5 for Blackman-Harris and 0.5 for the box.
+  /// Radius in pixels: 1.5 for Blackman-Harris, 0.5 for the box.
   explicit PixelFilter(FilterKind kind);
 
   /// Offset from the pixel's centre, in pixels, distributed as the filter; u in [0,1)^2.
@@ -21,12 +21,16 @@ class PixelFilter {
 
  private:
   static constexpr int kIntervals = 256;
+  /// Distance from the centre at u = (i / kIntervals)^2 / 2, and at 1 - u: closest in the tails, where it
+  /// changes most. Linear in between, so that the box is exact.
   float sample_axis(float u) const {
-    const float x = u * kIntervals;
-    const int i = std::min(int(x), kIntervals - 1);
-    return inverse_cdf_[i] + (x - float(i)) * (inverse_cdf_[i + 1] - inverse_cdf_[i]);
+    const bool left = u < 0.5f;
+    const float w = 2 * kIntervals * kIntervals * (left ? u : 1 - u);
+    const int i = std::min(int(std::sqrt(w)), kIntervals - 1);
+    const float x = distance_[i] + (w - float(i * i)) / float(2 * i + 1) * (distance_[i + 1] - distance_[i]);
+    return left ? -x : x;
   }
-  std::array<float, kIntervals + 1> inverse_cdf_;
+  std::array<float, kIntervals + 1> distance_;
 };
 
 }  // namespace parian
