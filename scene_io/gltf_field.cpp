@@ -116,12 +116,10 @@ class FieldCheck {
       case Kind::list:
         return each(value, field, place, [&](json& v, const Place& p) { members(v, field.fields, p); });
       case Kind::index_list:
-        return each(value, field, place,
-                    [&](json& v, const Place& p) { whole(v, field, p, sizes_.at(field.array)); });
+        return each(value, field, place, [&](json& v, const Place& p) { whole(v, field, p); });
       case Kind::index_map:
         if (!value.is_object()) fail(place, "an object of accessor indices");
-        for (auto& [key, entry] : value.items())
-          whole(entry, field, Place{&place, &key}, sizes_.at(field.array));
+        for (auto& [key, entry] : value.items()) whole(entry, field, Place{&place, &key});
         return;
       case Kind::text_list:
         return each(value, field, place, [&](json& v, const Place& p) {
@@ -131,9 +129,9 @@ class FieldCheck {
         if (!value.is_array() || value.size() != field.count) fail(place, describe(field));
         return each(value, field, place, [&](json& v, const Place& p) { real(v, field, p); });
       case Kind::index:
-        return whole(value, field, place, sizes_.at(field.array));
+        return whole(value, field, place);
       case Kind::integer:
-        return whole(value, field, place, std::size_t(field.high) + 1);
+        return whole(value, field, place);
       case Kind::number:
         return real(value, field, place);
       case Kind::flag:
@@ -157,10 +155,12 @@ class FieldCheck {
   }
 
   // Some writers print integers as 3.0: tinygltf would drop those.
-  void whole(json& value, const Field& field, const Place& place, std::size_t size) {
+  void whole(json& value, const Field& field, const Place& place) {
+    const bool is_index = !field.array.empty();
+    const double low = is_index ? 0 : field.low;
+    const double high = is_index ? double(sizes_.at(field.array)) - 1 : field.high;
     const double number = value.is_number() ? value.get<double>() : -1;
-    const double low = field.kind == Kind::integer ? field.low : 0;
-    const bool fits = number >= low && number < double(size) && number == std::floor(number);
+    const bool fits = number >= low && number <= high && number == std::floor(number);
     if (!fits ||
         (!field.choices.empty() && std::ranges::find(field.choices, number) == field.choices.end())) {
       fail(place, describe(field));

@@ -121,6 +121,7 @@ TEST_F(GltfFile, RefusesWhatIsNotJson) {
        {"", "{", "null", "[]", "{\"asset\":", "\xFF\xFE", "{\"asset\": {\"version\": 1e999}}"}) {
     EXPECT_NE(refusal(text, "scene.gltf"), "") << text;
   }
+  EXPECT_EQ(refusal("[]", "scene.gltf"), "expected an object");
   EXPECT_EQ(refusal("hello", "scene.gltf").substr(0, 20), "expected valid JSON:");
 }
 
