@@ -4,10 +4,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -400,6 +402,21 @@ TEST_F(ImageIo, FailedWritesLeaveNothingBehind) {
   EXPECT_NE(error_of([&] { write_exr(picture, path("folder.exr")); }).find("not a file"), std::string::npos);
   EXPECT_NE(error_of([&] { write_exr(picture, "/dev/full"); }).find("not a file"), std::string::npos);
   EXPECT_EQ(files(), 1u);
+  // A disk that fills up while the file is written: the picture that was there stays, and no temporary file
+  // does.
+  write_exr(picture, path("a.exr"));
+  const Bytes before = read_bytes(path("a.exr"));
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{1000, limit.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = error_of([&] { write_exr(picture, path("a.exr")); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_NE(message.find("a.exr: cannot be written"), std::string::npos) << message;
+  EXPECT_EQ(read_bytes(path("a.exr")), before);
+  EXPECT_EQ(files(), 2u);
   // What was there stays where the new file cannot be made.
   const std::string kept = write("kept.gif", {1, 2, 3});
   EXPECT_NE(error_of([&] { write_display_image(picture, kept); }).find(".png, .jpg or .jpeg"),
