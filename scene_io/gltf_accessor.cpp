@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <memory>
 #include <type_traits>
 
 #include "renderer/base/parallel.h"
+#include "scene_io/gltf_elements.h"
 
 namespace parian {
 namespace {
@@ -19,118 +18,6 @@ constexpr std::size_t kChunk = std::size_t(1) << 16;
 // rotation that becomes an instance transform. More means that accessors overlap.
 constexpr std::size_t kMaxGrowth = 64;
 constexpr std::size_t kSmallFile = std::size_t(64) << 20;
-
-/// Elements in memory: element i starts at data + i * stride. Without data all are zero.
-struct Elements {
-  const std::byte* data = nullptr;
-  std::size_t stride = 0;
-  int component_type = 0, components = 0;
-  bool normalized = false;
-};
-
-Elements base_elements(const GltfDocument& document, const tinygltf::Accessor& accessor) {
-  Elements elements{.component_type = accessor.componentType,
-                    .components = tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)),
-                    .normalized = accessor.normalized};
-  if (accessor.bufferView >= 0) {
-    const std::size_t stride = document.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
-    elements.data = document.view(accessor.bufferView).data() + accessor.byteOffset;
-    elements.stride = stride ? stride : element_bytes(accessor);
-  }
-  return elements;
-}
-
-/// The densely stored replacements of a sparse accessor.
-Elements sparse_elements(const GltfDocument& document, const tinygltf::Accessor& accessor) {
-  Elements elements = base_elements(document, accessor);
-  elements.data = document.view(accessor.sparse.values.bufferView).data() +
-                  std::size_t(accessor.sparse.values.byteOffset);
-  elements.stride = element_bytes(accessor);
-  return elements;
-}
-
-Elements sparse_positions(const GltfDocument& document, const tinygltf::Accessor& accessor) {
-  const auto& indices = accessor.sparse.indices;
-  return {.data = document.view(indices.bufferView).data() + std::size_t(indices.byteOffset),
-          .stride = std::size_t(tinygltf::GetComponentSizeInBytes(std::uint32_t(indices.componentType))),
-          .component_type = indices.componentType,
-          .components = 1,
-          .normalized = false};
-}
-
-/// Calls body with a value of the C++ type of the components.
-template <class Body>
-void with_component_type(int component_type, const Body& body) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return body(std::int8_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return body(std::uint8_t());
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return body(std::int16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return body(std::uint16_t());
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return body(std::uint32_t());
-    default:
-      return body(float());
-  }
-}
-
-/// Writes elements [begin, end) to out(i): a pointer to floats.
-template <class Out>
-void decode_floats(const Elements& elements, std::size_t begin, std::size_t end, const Out& out) {
-  with_component_type(elements.component_type, [&](auto tag) {
-    using Stored = decltype(tag);
-    for (std::size_t i = begin; i < end; ++i) {
-      float* const target = out(i);
-      const std::byte* const source = elements.data + i * elements.stride;
-      for (int c = 0; c < elements.components; ++c) {
-        Stored value;  // buffers promise no alignment
-        std::memcpy(&value, source + std::size_t(c) * sizeof(Stored), sizeof(Stored));
-        target[c] = float(value);
-        if constexpr (std::is_integral_v<Stored>) {
-          if (elements.normalized) {
-            target[c] = std::max(target[c] / float(std::numeric_limits<Stored>::max()), -1.0f);
-          }
-        }
-      }
-    }
-  });
-}
-
-void decode_integers(const Elements& elements, std::size_t begin, std::size_t end, std::uint32_t* out) {
-  with_component_type(elements.component_type, [&](auto tag) {
-    using Stored = decltype(tag);
-    if constexpr (std::is_unsigned_v<Stored>) {
-      for (std::size_t i = begin; i < end; ++i) {
-        Stored value;
-        std::memcpy(&value, elements.data + i * elements.stride, sizeof(Stored));
-        out[i - begin] = value;
-      }
-    }
-  });
-}
-
-/// Calls body(position, k): replacement k goes to element `position`.
-void for_sparse(const GltfDocument& document, int number,
-                const std::function<void(std::size_t, std::size_t)>& body) {
-  const auto& accessor = document.model.accessors[std::size_t(number)];
-  if (!accessor.sparse.isSparse) return;
-  const Elements positions = sparse_positions(document, accessor);
-  std::int64_t previous = -1;
-  for (std::size_t k = 0; k < std::size_t(accessor.sparse.count); ++k) {
-    std::uint32_t position = 0;
-    decode_integers(positions, k, k + 1, &position);
-    if (position <= previous || position >= accessor.count) {
-      document.fail(
-          fmt::format("/accessors/{}/sparse/indices", number),
-          fmt::format("expected rising indices below {}, element {} is {}", accessor.count, k, position));
-    }
-    previous = position;
-    body(position, k);
-  }
-}
 
 bool accepts(const tinygltf::Accessor& accessor, Components components) {
   switch (accessor.componentType) {
@@ -195,16 +82,16 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
   claim(accessor.count * sizeof(Vector), where);
   const auto owner = std::make_shared_for_overwrite<Vector[]>(accessor.count);
   Vector* const out = owner.get();
-  const auto target = [&](std::size_t i) { return &out[i][0]; };
+  constexpr std::size_t kStride = sizeof(Vector) / sizeof(float);
   const Elements base = base_elements(document_, accessor);
   for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     if (!base.data) std::fill(out + begin, out + end, Vector(0));
-    if (base.data) decode_floats(base, begin, end, target);
+    if (base.data) decode_floats(base, begin, end, &out[begin][0], kStride);
     for (std::size_t i = begin; dimension < int(Vector::dimensions()) && i < end; ++i) out[i][dimension] = 1;
   });
   const Elements replacements = accessor.sparse.isSparse ? sparse_elements(document_, accessor) : Elements{};
   for_sparse(document_, number, [&](std::size_t position, std::size_t k) {
-    decode_floats(replacements, k, k + 1, [&](std::size_t) { return target(position); });
+    decode_floats(replacements, k, k + 1, &out[position][0], kStride);
   });
   for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -33,9 +33,10 @@ struct GltfDocument {
   }
 };
 
-/// Reads the file and its buffers, and checks all that does not need the values in the buffers: types, ranges,
-/// indices, that accessors lie in their bufferViews and those in their buffers, and that no unsupported extension
-/// is required. That the nodes form a forest is left to validate(). Images are not read. Throws InputError.
+/// Reads the file and its buffers, and checks all that does not need the values in the buffers: types,
+/// ranges, indices, that accessors lie in their bufferViews and those in their buffers, and that no
+/// unsupported extension is required. That the nodes form a forest is left to validate(). Images are not
+/// read. Throws InputError.
 GltfDocument read_document(const std::string& path);
 
 /// What read_document() checks once the model and the buffers are there. Throws InputError.

@@ -1,14 +1,6 @@
 #include "scene_io/gltf_schema.h"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <array>
-#include <set>
 #include <utility>
-
-#include "renderer/base/error.h"
-#include "scene_io/gltf_field.h"
 
 namespace parian {
 namespace {
@@ -130,9 +122,10 @@ Field lights() {
                    .required()})});
 }
 
+}  // namespace
+
 std::vector<Field> document_fields() {
-  constexpr std::array wraps{33071, 33648, 10497};
-  const std::vector<int> wrap(wraps.begin(), wraps.end());
+  const std::vector<int> wrap = {33071, 33648, 10497};
   return {
       object("asset", {text("version").required(), text("minVersion")}).required(),
       texts("extensionsUsed"),
@@ -156,90 +149,6 @@ std::vector<Field> document_fields() {
                         object("extensions", {object("EXT_texture_webp", {index("source", "/images")})})}),
       lights(),
   };
-}
-
-void check_required(const nlohmann::json& names, const std::string& file) {
-  for (std::size_t i = 0; names.is_array() && i < names.size(); ++i) {
-    if (!names[i].is_string() || reads_extension(names[i])) continue;
-    throw InputError(file, fmt::format("/extensionsRequired/{}", i),
-                     fmt::format("expected an extension that Parian reads, {} is not one",
-                                 names[i].get_ref<const std::string&>()));
-  }
-}
-
-void check_version(const nlohmann::json& asset, const std::string& file) {
-  const auto require = [&](const char* key, const auto& accepts, const char* expected) {
-    if (asset.contains(key) && !accepts(asset[key].template get_ref<const std::string&>())) {
-      throw InputError(file, fmt::format("/asset/{}", key), expected);
-    }
-  };
-  require(
-      "version", [](const std::string& v) { return v.starts_with("2."); }, "expected glTF version 2");
-  require(
-      "minVersion", [](const std::string& v) { return v == "2.0"; }, "expected at most glTF version 2.0");
-}
-
-/// Relations that tinygltf would refuse without saying where.
-void check_relations(const nlohmann::json& document, const std::string& file) {
-  static const nlohmann::json kNothing = nlohmann::json::array();
-  const auto array = [&](const char* key) -> const nlohmann::json& {
-    return document.contains(key) ? document[key] : kNothing;
-  };
-  const auto fail = [&](const std::string& where, const char* expected) {
-    throw InputError(file, where, expected);
-  };
-  const auto need_member = [&](const nlohmann::json& list, const char* where) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto& type = list[i]["type"].get_ref<const std::string&>();
-      const bool needed = type == "perspective" || type == "orthographic" || type == "spot";
-      if (needed && !list[i].contains(type)) {
-        fail(fmt::format("{}/{}/{}", where, i, type), "expected an object, since type says so");
-      }
-    }
-  };
-  need_member(array("cameras"), "/cameras");
-  const std::string lights = "/extensions/KHR_lights_punctual/lights";
-  const nlohmann::json::json_pointer pointer(lights);
-  if (document.contains(pointer)) need_member(document[pointer], lights.c_str());
-
-  const auto& views = array("bufferViews");
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].value("byteStride", 4) % 4 != 0) {
-      fail(fmt::format("/bufferViews/{}/byteStride", i), "expected a multiple of 4");
-    }
-  }
-  const auto& meshes = array("meshes");
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const auto& primitives = meshes[m]["primitives"];
-    for (std::size_t p = 0; p < primitives.size(); ++p) {
-      const bool indexed = primitives[p].contains("indices");
-      if (indexed &&
-          !document["accessors"][primitives[p]["indices"].get<std::size_t>()].contains("bufferView")) {
-        fail(fmt::format("/meshes/{}/primitives/{}/indices", m, p), "expected an accessor with a bufferView");
-      }
-    }
-  }
-}
-
-}  // namespace
-
-bool reads_extension(const std::string& name) {
-  static const std::set<std::string> names = {
-      "EXT_camera_physical",     "EXT_lights_area",       "EXT_lights_environment",
-      "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_lights_punctual",
-      "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength",
-      "KHR_mesh_quantization",   "KHR_texture_transform", "KHR_materials_specular"};
-  return names.contains(name);
-}
-
-void conform(nlohmann::json& document, const std::string& file) {
-  // First, since such an extension may change what the rest of the document means.
-  if (document.is_object() && document.contains("extensionsRequired")) {
-    check_required(document["extensionsRequired"], file);
-  }
-  check_fields(document, document_fields(), file);
-  check_version(document["asset"], file);
-  check_relations(document, file);
 }
 
 }  // namespace parian

@@ -4,8 +4,14 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
+
+#include "scene_io/gltf_field.h"
 
 namespace parian {
+
+/// The members of a glTF document that Parian reads, with those of the extensions that it reads.
+std::vector<Field> document_fields();
 
 /// Whether Parian reads the glTF extension of this name.
 bool reads_extension(const std::string& name);

@@ -155,6 +155,12 @@ TEST(Validate, ChecksSharedTrianglesAgainstEachPrimitive) {
   EXPECT_EQ(refusal(scene).substr(0, 40), "s: /meshes/0/primitives/1/triangles/0: e");
 }
 
+TEST(Validate, ChecksOneArrayInEachOfItsUses) {
+  Scene scene = good_scene();
+  primitive(scene).normals = primitive(scene).positions;  // fine as positions, not as normals
+  EXPECT_EQ(refusal(scene), "s: /meshes/0/primitives/0/normals/0: expected a unit vector");
+}
+
 // Beyond the first chunk of the parallel loop.
 TEST(Validate, FindsOneBadVertexAmongMany) {
   Scene scene = good_scene();
