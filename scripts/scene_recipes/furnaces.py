@@ -19,7 +19,7 @@ def furnace_sphere() -> tuple[Gltf, Expected]:
     scene.add_camera((0, 0, 3), yfov_degrees=60, aspect=1)
     covered = silhouette_share(ball.positions, distance=3, yfov_degrees=60)
     mean = [1 - covered * (1 - r) for r in rho]
-    centre = region((0.3, 0.3, 0.7, 0.7), rho, 0.002, "rho Le: a convex Lambert body in a constant environment Le = 1")
+    centre = region((0.3125, 0.3125, 0.6875, 0.6875), rho, 0.002, "rho Le: a convex Lambert body in a constant environment Le = 1")
     source = f"closed form: 1 - c (1 - rho), c = {covered:.6f} the area of the convex hull of the projected ball"
     return scene, expected(
         "A faceted Lambert ball under a constant white sky: each facet has the same colour, rho.",
@@ -80,14 +80,14 @@ def environment_gradient() -> tuple[Gltf, Expected]:
     mean = [((image - hexagon) * behind + hexagon * (bright + 2 * even) / 3) / image] * 3
     facing = "rho (1 + 2/3 on the axis that the face looks along)"
     pixels = [
-        region((0.45, 0.25, 0.55, 0.35), (even, bright, even), 0.01, f"+y face: {facing}"),
-        region((0.60, 0.52, 0.70, 0.62), (bright, even, even), 0.01, f"+x face: {facing}"),
-        region((0.30, 0.52, 0.40, 0.62), (even, even, bright), 0.01, f"+z face: {facing}"),
-        region((0.0, 0.0, 0.1, 0.1), [behind] * 3, 0.01, "sky: 1 - 1/sqrt(3) behind the cube's far corner"),
+        region((0.40625, 0.1875, 0.59375, 0.375), (even, bright, even), 0.02, f"+y face: {facing}"),
+        region((0.59375, 0.5, 0.78125, 0.6875), (bright, even, even), 0.02, f"+x face: {facing}"),
+        region((0.21875, 0.5, 0.40625, 0.6875), (even, even, bright), 0.02, f"+z face: {facing}"),
+        region((0.0, 0.0, 0.125, 0.125), [behind] * 3, 0.01, "sky: 1 - 1/sqrt(3) behind the cube's far corner"),
     ]
     source = "closed form: sky 1 - 1/sqrt(3); the cube's hexagon, sqrt(3) s^2, in thirds of rho 5/3, rho, rho"
     return scene, expected(
         "A cube under a sky of 1 + x, 1 + y, 1 + z as red, green and blue: each face glows in its axis's colour "
         "(camera 1 sees the three dark faces, rho / 3 on the axis).",
-        (64, 64), 64, source, mean, 0.01, pixels,  # .hdr keeps 8 bits: up to .4%
+        (64, 64), 256, source, mean, 0.01, pixels,  # .hdr keeps 8 bits: up to .4%
     )  # fmt: skip
