@@ -84,9 +84,9 @@ std::string format_of(Bytes bytes, const std::string& name) {
   throw InputError(name, "", fmt::format("expected {}", kFormats));
 }
 
-// libjpeg only warns of a file that ends early, and fills the rest with grey. So look for the end marker:
-// walk the segments, and inside entropy-coded data skip to the next marker that is neither stuffing (00) nor
-// restart (D0-D7).
+// Whether a JPEG has its end. libjpeg fills what is missing with grey and only warns, and only once: not if
+// stray bytes before a marker came first. So walk the segments to the end marker; inside entropy-coded data
+// skip to the next marker that is neither stuffing (00) nor restart (D0-D7).
 bool jpeg_is_whole(Bytes bytes) {
   const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(bytes[i]); };
   std::size_t i = 2;
@@ -175,7 +175,7 @@ struct Reader {
     config.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOProxy* proxy = &memory;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    if (!input->open(name, spec, config)) fail();
+    if (!input->open(name, spec, config)) fail(input->geterror());
     if (spec.width <= 0 || spec.height <= 0 || spec.width > kMaxSide || spec.height > kMaxSide ||
         spec.nchannels <= 0)
       throw InputError(
@@ -188,11 +188,11 @@ struct Reader {
       throw InputError(name, "", "the data window is not the display window; expected a whole picture");
   }
 
-  // The library's own words, in one line.
-  [[noreturn]] void fail() const {
-    const std::string text = first_line(input->geterror());
-    throw InputError(name, "",
-                     fmt::format("broken or truncated: {}", text.empty() ? "cannot be decoded" : text));
+  // With the library's own words, in one line.
+  [[noreturn]] void fail(const std::string& text) const {
+    throw InputError(
+        name, "",
+        fmt::format("broken or truncated: {}", text.empty() ? "cannot be decoded" : first_line(text)));
   }
 
   std::size_t checked_bytes(int channels, std::size_t sample_bytes) const {
@@ -209,7 +209,11 @@ struct Reader {
     const bool ok = spec.tile_width ? input->read_image(0, 0, first, last, type, out)
                                     : input->read_scanlines(0, 0, spec.y + begin, spec.y + end, 0, first,
                                                             last, type, out);
-    if (!ok || input->has_error()) fail();
+    if (ok && !input->has_error()) return;
+    const std::string text = input->geterror();
+    // What many a JPEG in the world has, and what harms no pixel.
+    if (ok && text.find("extraneous bytes before marker") != std::string::npos) return;
+    fail(text);
   }
 };
 

@@ -283,6 +283,23 @@ TEST_F(ImageIo, RefusesTruncatedFiles) {
   }
 }
 
+// Stray bytes before a marker are common and harmless; but libjpeg warns of them and then of nothing else, so
+// that a file that has them and is cut must be found out otherwise.
+TEST_F(ImageIo, AcceptsStrayBytesInJpegButNoMissingEnd) {
+  std::vector<std::uint8_t> pixels(64 * 64 * 3);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = std::uint8_t(i * i >> 4);
+  const Bytes clean = encode("jpeg", 64, 64, 3, OIIO::TypeDesc::UINT8, pixels.data());
+  // Before the quantization tables.
+  std::size_t marker = 0;
+  while (clean[marker] != 0xff || clean[marker + 1] != 0xdb) ++marker;
+  Bytes stray = clean;
+  stray.insert(stray.begin() + std::ptrdiff_t(marker), {0x12, 0x34});
+  EXPECT_EQ(error_of([&] { read(stray); }), "");
+  EXPECT_EQ(texels<std::uint8_t>(read(stray)), texels<std::uint8_t>(read(clean)));
+  stray.resize(stray.size() * 9 / 10);
+  EXPECT_NE(error_of([&] { read(stray); }).find("the JPEG has no end"), std::string::npos);
+}
+
 // Flipped bytes may decode to other pixels or be refused; nothing else may happen.
 TEST_F(ImageIo, SurvivesDamagedFiles) {
   const auto bytes = ramp<std::uint8_t>(3, 4);
@@ -378,6 +395,8 @@ TEST_F(ImageIo, ExrKeepsLayersAndMetadataExactly) {
     EXPECT_EQ(found->second, value);
   }
   EXPECT_EQ(back.metadata.at("Software"), "Parian");
+  for (const auto& [key, value] : back.metadata)
+    EXPECT_TRUE(key.find("oiio:") != 0 && key.find("openexr:") != 0 && key != "compression") << key;
   // A second trip changes nothing.
   write_exr(back, path("b.exr"));
   EXPECT_EQ(read_bytes(path("a.exr")), read_bytes(path("b.exr")));
