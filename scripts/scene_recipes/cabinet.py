@@ -51,14 +51,14 @@ def on_shelf(centre: Vec, x: float = 0, y: float = 0, z: float = 0) -> Vec3:
 
 
 def bay_point(scene: Gltf, centre: Vec) -> None:
-    scene.add_punctual_light("point", "point", (1, 0.82, 0.6), 2, on_shelf(centre, 0.35, 1.45, 0.35))
+    scene.add_punctual_light("point", "point", (1, 0.82, 0.6), 2.5, on_shelf(centre, 0.35, 1.45, 0.35))
     white = scene.add_lambert("plaster", (0.8, 0.78, 0.74))
     scene.add_object("cone", cone(0.42, 1.2).without("uvs"), white, translation=on_shelf(centre, -0.3, 0, -0.2))
     scene.add_object("ball", BALL, white, translation=on_shelf(centre, 0.38, 0.3, 0.25), scale=(0.3,) * 3)
 
 
 def bay_directional(scene: Gltf, centre: Vec) -> None:
-    scene.add_punctual_light("directional", "sun", (1, 0.94, 0.84), 18, (-1.8, 5, 0), (0, 0, 0))
+    scene.add_punctual_light("directional", "sun", (1, 0.94, 0.84), 9, (-1.8, 5, 0), (0, 0, 0))
     marble = scene.add_material("glazed", (0.75, 0.75, 0.72), roughness=0.25)
     profile = [(0.12, 1.25), (0.16, 1.21), (0.12, 1.06), (0.17, 0.87), (0.37, 0.56), (0.41, 0.37), (0.35, 0.15)]
     vase = lathe([*profile, (0.22, 0), (0, 0)], 48).without("uvs")
@@ -68,16 +68,16 @@ def bay_directional(scene: Gltf, centre: Vec) -> None:
 def bay_spot(scene: Gltf, centre: Vec) -> None:
     cone_angles = {"innerConeAngle": math.radians(22), "outerConeAngle": math.radians(30)}
     eye, target = on_shelf(centre, -0.5, 1.7, 0.75), on_shelf(centre, 0.12, 0.45, -0.3)
-    scene.add_punctual_light("spot", "spot", (1, 0.9, 0.75), 22, eye, target, spot=cone_angles)
-    gold = scene.add_material("gold", (1.0, 0.77, 0.34), metallic=1, roughness=0.3)
+    scene.add_punctual_light("spot", "spot", (1, 0.9, 0.75), 28, eye, target, spot=cone_angles)
+    gold = scene.add_material("gold", (1.0, 0.77, 0.34), metallic=1, roughness=0.42)
     ring = torus(0.42, 0.15, 48, 20).without("uvs").moved(turn=rotation((1, 0, 0), 80))
     place, turn = on_shelf(centre, 0.08, 0.57, -0.05), rotation((0, 1, 0), 25)
     scene.add_object("ring", ring, gold, translation=place, rotation=turn)
 
 
 def bay_rectangle(scene: Gltf, centre: Vec) -> None:
-    eye, target = on_shelf(centre, 0, 1.75, 0.1), on_shelf(centre, 0, 0, 0.1)
-    scene.add_rect_light("rectangle", (1, 0.96, 0.9), 7, (1.4, 0.35), eye, target)
+    eye, target = on_shelf(centre, 0, 1.74, -0.1), on_shelf(centre, 0, 0, 0.3)
+    scene.add_rect_light("rectangle", (1, 0.96, 0.9), 9, (1.4, 0.35), eye, target)
     red = scene.add_material("red lacquer", (0.65, 0.06, 0.05), roughness=0.2)
     cube = box((0, 0.3, 0), (0.6, 0.6, 0.6)).without("uvs")
     scene.add_object("cube", cube, red, translation=on_shelf(centre, -0.28, 0, -0.1), rotation=rotation((0, 1, 0), 28))
@@ -86,8 +86,8 @@ def bay_rectangle(scene: Gltf, centre: Vec) -> None:
 
 
 def bay_disk(scene: Gltf, centre: Vec) -> None:
-    eye, target = on_shelf(centre, 0.55, 1.55, 0.3), on_shelf(centre, -0.1, 0.3, -0.1)
-    scene.add_disk_light("disk", (0.8, 0.9, 1), 22, 0.5, eye, target)
+    eye, target = on_shelf(centre, 0.25, 1.66, 0.15), on_shelf(centre, 0, 0, 0.5)
+    scene.add_disk_light("disk", (0.8, 0.9, 1), 26, 0.5, eye, target)
     white = scene.add_lambert("chalk", (0.82, 0.82, 0.82))
     pearl = scene.add_material("pearl", (0.85, 0.82, 0.78), roughness=0.15)
     for i, (radius, height) in enumerate(((0.62, 0.26), (0.46, 0.26), (0.3, 0.26))):
