@@ -25,7 +25,7 @@ struct Config {
   std::string path;
   OCIO::ConstConfigRcPtr ocio;
   std::string display;
-  std::vector<std::string> views;  // of the display, its default first
+  std::vector<std::string> views;  // of the display, in the config's order: the first is its default
 };
 
 // The config that belongs to this program: beside it where it is installed (bin/, share/) or built (share/ in
@@ -61,9 +61,6 @@ Config load_config() {
   for (int i = 0; i < config.ocio->getNumViews(display); ++i)
     config.views.emplace_back(config.ocio->getView(display, i));
   if (config.views.empty()) throw InputError(config.path, "", "has no display with a view");
-  const auto first =
-      std::find(config.views.begin(), config.views.end(), config.ocio->getDefaultView(display));
-  if (first != config.views.end()) std::rotate(config.views.begin(), first, first + 1);
   return config;
 }
 

@@ -166,6 +166,12 @@ TEST_F(Display, AcesRisesWithLightAndShowsMidGreyDark) {
   // The ACES tone scale puts 0.18 at a tenth of white (4.8 of 48 nits).
   EXPECT_NEAR(shown({{0.18f, 0.18f, 0.18f}}, "ACES 1.0 SDR")[0][1], srgb(0.1), 0.01);
   EXPECT_GT(result.back()[1], 0.95f);
+  // A dull colour keeps its hue: the ratios of its channels grow with the contrast of the curve, both by the
+  // same.
+  const Color dull = shown({{0.22f, 0.18f, 0.14f}}, "ACES 1.0 SDR")[0];
+  const auto linear = [](double v) { return std::pow((v + 0.055) / 1.055, 2.4); };
+  EXPECT_NEAR(std::log(linear(dull[0]) / linear(dull[1])) / std::log(0.22 / 0.18), 1.35, 0.25);
+  EXPECT_NEAR(std::log(linear(dull[1]) / linear(dull[2])) / std::log(0.18 / 0.14), 1.35, 0.25);
 }
 
 TEST_F(Display, StaysInRangeWhateverComesIn) {
