@@ -38,7 +38,7 @@ constexpr std::size_t kMaxExpansion = 1100;
 // Rows decoded at a time, so that memory is touched only as far as the file really goes.
 constexpr int kRowsAtOnce = 256;
 
-constexpr std::string_view kFormats = "a PNG, JPEG, WebP, OpenEXR, Radiance HDR or TIFF image";
+constexpr std::string_view kFormats = "a PNG, JPEG, WebP, OpenEXR or Radiance HDR image";
 
 // Images are decoded in parallel, each on one thread; only OpenEXR decodes one image on several, from one
 // pool of the process that has as many as Parian's own.
@@ -78,7 +78,6 @@ std::string format_of(Bytes bytes, const std::string& name) {
   if (starts_with(bytes, "RIFF"sv) && starts_with(bytes, "WEBP"sv, 8)) return "webp";
   if (starts_with(bytes, "\x76\x2f\x31\x01"sv)) return "openexr";
   if (starts_with(bytes, "#?"sv)) return "hdr";
-  if (starts_with(bytes, "II*\0"sv) || starts_with(bytes, "MM\0*"sv)) return "tiff";
   if (starts_with(bytes, "\xabKTX 20\xbb"sv))
     throw InputError(name, "", fmt::format("KTX 2 is not supported; expected {}", kFormats));
   throw InputError(name, "", fmt::format("expected {}", kFormats));

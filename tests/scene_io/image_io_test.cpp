@@ -272,8 +272,7 @@ TEST_F(ImageIo, RefusesTruncatedFiles) {
       {"webp", encode("webp", width, height, 3, OIIO::TypeDesc::UINT8, bytes.data())},
       {"hdr", encode("hdr", width, height, 3, OIIO::TypeDesc::FLOAT, floats.data())},
       {"exr", encode("openexr", width, height, 3, OIIO::TypeDesc::FLOAT, floats.data())},
-      {"tiled exr", encode("openexr", width, height, 3, OIIO::TypeDesc::FLOAT, floats.data(), tiled)},
-      {"tiff", encode("tiff", width, height, 3, OIIO::TypeDesc::UINT8, bytes.data())}};
+      {"tiled exr", encode("openexr", width, height, 3, OIIO::TypeDesc::FLOAT, floats.data(), tiled)}};
   for (const auto& [name, whole] : files) {
     EXPECT_EQ(error_of([&] { read(whole); }), "") << name;
     for (const double part : {0.999, 0.95, 0.7, 0.5, 0.2, 0.05, 0.01}) {
@@ -308,8 +307,7 @@ TEST_F(ImageIo, SurvivesDamagedFiles) {
                          encode("jpeg", 5, 3, 3, OIIO::TypeDesc::UINT8, bytes.data()),
                          encode("webp", 5, 3, 3, OIIO::TypeDesc::UINT8, bytes.data()),
                          encode("hdr", 5, 3, 3, OIIO::TypeDesc::FLOAT, floats.data()),
-                         encode("openexr", 5, 3, 3, OIIO::TypeDesc::FLOAT, floats.data()),
-                         encode("tiff", 5, 3, 3, OIIO::TypeDesc::UINT8, bytes.data())};
+                         encode("openexr", 5, 3, 3, OIIO::TypeDesc::FLOAT, floats.data())};
   int read_anyway = 0, refused = 0;
   std::uint32_t noise = 7;
   for (const Bytes& whole : files)
