@@ -45,7 +45,9 @@ EnvironmentLight::EnvironmentLight(const Scene& scene) {
 
 Vec2f EnvironmentLight::to_uv(const Vec3f& d) const {
   const Vec3f local(rotation_.x.dot(d), rotation_.y.dot(d), rotation_.z.dot(d));
-  return {0.5f + std::atan2(local.z, local.x) * (0.5f * kInvPi), std::acos(std::clamp(local.y, -1.0f, 1.0f)) * kInvPi};
+  // Not the arc cosine of y, which loses the angle near the poles.
+  const float sin_theta = std::sqrt(local.x * local.x + local.z * local.z);
+  return {0.5f + std::atan2(local.z, local.x) * (0.5f * kInvPi), std::atan2(sin_theta, local.y) * kInvPi};
 }
 
 Rgb EnvironmentLight::eval(const Vec3f& d) const {
