@@ -70,34 +70,48 @@ inline testing::AssertionResult chi_square(std::span<const double> observed, std
                                      << " degrees of freedom: p = " << p << " < " << least;
 }
 
-/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four until
-/// halves agree to `tolerance` or eight times over.
+/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four, twice
+/// at least and eight times at most, until the parts agree with the whole to `tolerance` and none of them has
+/// the border of where f is 0 in it.
 template <class F>
 double integrate(const F& f, double x0, double x1, double y0, double y1, double tolerance = 1e-7) {
+  struct Piece {
+    double sum;
+    bool border;
+  };
   const auto gauss = [&](double ax, double bx, double ay, double by) {
     constexpr std::array<double, 4> node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                          0.8611363115940526};
     constexpr std::array<double, 4> weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                            0.3478548451374538};
     double sum = 0;
+    int zeros = 0;
     for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i)
-        sum += weight[i] * weight[j] *
-               f(0.5 * (ax + bx + node[i] * (bx - ax)), 0.5 * (ay + by + node[j] * (by - ay)));
-    return sum * 0.25 * (bx - ax) * (by - ay);
+      for (int i = 0; i < 4; ++i) {
+        const double value = f(0.5 * (ax + bx + node[i] * (bx - ax)), 0.5 * (ay + by + node[j] * (by - ay)));
+        sum += weight[i] * weight[j] * value;
+        zeros += value == 0;
+      }
+    return Piece{sum * 0.25 * (bx - ax) * (by - ay), zeros > 0 && zeros < 16};
   };
   const auto refine = [&](const auto& self, double ax, double bx, double ay, double by, double whole,
                           int level) -> double {
     const double mx = 0.5 * (ax + bx), my = 0.5 * (ay + by);
-    const double parts[4] = {gauss(ax, mx, ay, my), gauss(mx, bx, ay, my), gauss(ax, mx, my, by),
-                             gauss(mx, bx, my, by)};
-    const double sum = parts[0] + parts[1] + parts[2] + parts[3];
-    // Two levels always, so that a density which fills a corner of the rectangle is not overlooked.
-    if (level == 8 || (level >= 2 && std::abs(sum - whole) < tolerance)) return sum;
-    return self(self, ax, mx, ay, my, parts[0], level + 1) + self(self, mx, bx, ay, my, parts[1], level + 1) +
-           self(self, ax, mx, my, by, parts[2], level + 1) + self(self, mx, bx, my, by, parts[3], level + 1);
+    const Piece parts[4] = {gauss(ax, mx, ay, my), gauss(mx, bx, ay, my), gauss(ax, mx, my, by),
+                            gauss(mx, bx, my, by)};
+    double sum = 0;
+    bool border = false;
+    for (const Piece& part : parts) {
+      sum += part.sum;
+      border = border || part.border;
+    }
+    if (level == 8 || (level >= 2 && !border && std::abs(sum - whole) < tolerance)) return sum;
+    return self(self, ax, mx, ay, my, parts[0].sum, level + 1) +
+           self(self, mx, bx, ay, my, parts[1].sum, level + 1) +
+           self(self, ax, mx, my, by, parts[2].sum, level + 1) +
+           self(self, mx, bx, my, by, parts[3].sum, level + 1);
   };
-  return refine(refine, x0, x1, y0, y1, gauss(x0, x1, y0, y1), 1);
+  return refine(refine, x0, x1, y0, y1, gauss(x0, x1, y0, y1).sum, 1);
 }
 
 /// The sphere cut into rings around an axis and sectors of a ring. Rings are of
