@@ -158,7 +158,8 @@ std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& ligh
     return LightSample{-light.direction, light.intensity, 1, true, true, p};
   const Vec3f to_light = light.position - p;
   const float distance2 = to_light.dot(to_light);
-  if (!(distance2 > 0)) return std::nullopt;
+  // At the light itself the inverse square has no value.
+  if (!(distance2 > 1e-30f)) return std::nullopt;
   const Vec3f wi = to_light * (1 / std::sqrt(distance2));
   Rgb irradiance = light.intensity * (1 / distance2);
   if (light.range > 0) {
