@@ -38,7 +38,7 @@ inline double gamma_q(double a, double x) {
 }
 
 /// Whether counts are as expected, at a significance of 1% over `tests` tests (Sidak). Cells that expect
-/// fewer than 5 are pooled; samples where none is expected fail, but for one in 1e4 that quadrature may not
+/// fewer than 5 are pooled; samples where none is expected fail, but for one in 5000 that quadrature may not
 /// see at a border. The sums of both must agree: a sampler that fails at times has a cell for its failures.
 inline testing::AssertionResult chi_square(std::span<const double> observed, std::span<const double> expected,
                                            int tests = 1) {
@@ -61,7 +61,7 @@ inline testing::AssertionResult chi_square(std::span<const double> observed, std
     pooled_observed = pooled_expected = 0;
     ++cells;
   }
-  if (stray > 1e-4 * samples)
+  if (stray > 2e-4 * samples)
     return testing::AssertionFailure() << stray << " samples in cells of density zero";
   if (cells < 2) return testing::AssertionSuccess() << "one cell";
   const double p = gamma_q(0.5 * (cells - 1), 0.5 * statistic), least = 1 - std::pow(0.99, 1.0 / tests);
@@ -70,11 +70,12 @@ inline testing::AssertionResult chi_square(std::span<const double> observed, std
                                      << " degrees of freedom: p = " << p << " < " << least;
 }
 
-/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four, twice
-/// at least and eight times at most, until the parts agree with the whole to `tolerance` and none of them has
-/// the border of where f is 0 in it.
+/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four, three times
+/// at least and `depth` times at most, until the parts agree with the whole to `tolerance` and none of them
+/// has the border of where f is 0 in it.
 template <class F>
-double integrate(const F& f, double x0, double x1, double y0, double y1, double tolerance = 1e-7) {
+double integrate(const F& f, double x0, double x1, double y0, double y1, double tolerance = 1e-7,
+                 int depth = 8) {
   struct Piece {
     double sum;
     bool border;
@@ -105,7 +106,7 @@ double integrate(const F& f, double x0, double x1, double y0, double y1, double 
       sum += part.sum;
       border = border || part.border;
     }
-    if (level == 8 || (level >= 2 && !border && std::abs(sum - whole) < tolerance)) return sum;
+    if (level >= depth || (level >= 3 && !border && std::abs(sum - whole) < tolerance)) return sum;
     return self(self, ax, mx, ay, my, parts[0].sum, level + 1) +
            self(self, mx, bx, ay, my, parts[1].sum, level + 1) +
            self(self, ax, mx, my, by, parts[2].sum, level + 1) +
@@ -122,6 +123,7 @@ struct SphereCells {
   double zoom = 100;
   int rings = 20, sectors = 20;
   double tolerance = 1e-7;  // of the integral over a cell
+  int depth = 8;            // how often integrate() halves it
 
   int count() const { return rings * sectors; }
   int find(const Vec3f& w) const {
@@ -146,7 +148,7 @@ struct SphereCells {
     };
     const int ring = i / sectors, sector = i % sectors;
     return integrate(in_square, double(ring) / rings, double(ring + 1) / rings, double(sector) / sectors,
-                     double(sector + 1) / sectors, tolerance);
+                     double(sector + 1) / sectors, tolerance, depth);
   }
   template <class F>
   double integral(const F& f) const {
