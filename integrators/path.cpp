@@ -81,7 +81,7 @@ struct Path {
     const float survival = std::min(1.0f, max_component(weight));
     if (!(survival > 0)) return false;
     if (survival < 1) {
-      if (sampler.next1() >= survival) return false;
+      if (sampler.next_independent() >= survival) return false;
       weight *= 1 / survival;
     }
     return true;

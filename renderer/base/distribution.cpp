@@ -20,11 +20,9 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
   }
 }
 
-Distribution1D::Sample Distribution1D::sample(float u) const {
+int Distribution1D::search(float u) const {
   const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-  const int i = std::clamp(int(above - cdf_.begin()) - 1, 0, size() - 1);
-  const float p = probability(i);
-  return {i, p, std::clamp((u - cdf_[i]) / p, 0.0f, 0x1.fffffep-1f)};
+  return std::clamp(int(above - cdf_.begin()) - 1, 0, size() - 1);
 }
 
 Distribution2D::Distribution2D(int nx, int ny, const std::function<float(int, int)>& weight)

@@ -26,9 +26,21 @@ class Distribution1D {
     float probability;
     float remainder;  // the rest of u, again uniform in [0, 1)
   };
-  Sample sample(float u) const;
+  Sample sample(float u) const {
+    const int i = find(u);
+    const float p = probability(i);
+    return {i, p, std::clamp((u - cdf_[i]) / p, 0.0f, 0x1.fffffep-1f)};
+  }
 
  private:
+  int find(float u) const {
+    if (size() > 8) return search(u);
+    int i = 0;  // counting is quicker than searching, and does not mispredict
+    for (int k = 1; k < size(); ++k) i += cdf_[k] <= u;
+    return i;
+  }
+  int search(float u) const;
+
   std::vector<float> cdf_;  // size + 1 values from 0 to 1
   double total_ = 0;
 };

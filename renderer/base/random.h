@@ -26,6 +26,14 @@ inline std::uint32_t reverse_bits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
+/// Both halves of a 64-bit word bit-reversed and exchanged: two reversals for the price of one.
+inline std::uint64_t reverse_bits64(std::uint64_t x) {
+  x = __builtin_bswap64(x);
+  x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);
+  x = ((x & 0x3333333333333333u) << 2) | ((x >> 2) & 0x3333333333333333u);
+  return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
+}
+
 /// Owen's nested uniform scramble of a bit-reversed integer: bit i flips by a hash of the bits below it (Laine and
 /// Karras 2011, with the constants of Nathan Vegdahl, "Building a Better LK Hash", 2021).
 inline std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
@@ -72,8 +80,12 @@ class Sampler {
     const std::uint32_t index = reverse_bits(scramble_reversed(reversed_sample_, seed));
     const std::uint32_t x = scramble_reversed(index, seed * 0x2c1b3c6du + 0x297a2d39u);
     const std::uint32_t y = scramble_reversed(sobol1_reversed(index), seed * 0x6c8e9cf5u + 0x3c6ef372u);
-    return {to_unit_float(reverse_bits(x)), to_unit_float(reverse_bits(y))};
+    const std::uint64_t both = reverse_bits64(std::uint64_t(y) << 32 | x);
+    return {to_unit_float(std::uint32_t(both >> 32)), to_unit_float(std::uint32_t(both))};
   }
+
+  /// A number that is not stratified over the samples of a pixel, for decisions that gain nothing from it.
+  float next_independent() { return to_unit_float(hash32((state_ += 0x9e3779b9u) ^ hash32(sample_))); }
 
   /// A number for a choice inside a ray query that has no dimension of its own.
   std::uint32_t hash() const { return hash32(state_ ^ sample_); }

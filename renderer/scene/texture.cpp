@@ -15,27 +15,51 @@ struct SrgbTable {
   }
 };
 
-float channel(const Image& image, std::size_t i, ColorSpace space) {
+/// Calls use(color, alpha) with the functions that decode colour and alpha element i of the image, so that the choice of
+/// the type is made once for all texels of a lookup.
+template <class Use>
+Vec4f with_decoder(const Image& image, ColorSpace space, const Use& use) {
   static const SrgbTable table;
   const std::byte* data = image.pixels.data();
   switch (image.type) {
     case PixelType::u8: {
-      const auto byte = std::uint8_t(data[i]);
-      return space == ColorSpace::srgb ? table.value[byte] : float(byte) * (1.0f / 255);
+      const auto* p = reinterpret_cast<const std::uint8_t*>(data);
+      const auto linear = [p](std::size_t i) { return float(p[i]) * (1.0f / 255); };
+      if (space == ColorSpace::linear) return use(linear, linear);
+      return use([p](std::size_t i) { return table.value[p[i]]; }, linear);
     }
     case PixelType::u16: {
-      const float value = float(reinterpret_cast<const std::uint16_t*>(data)[i]) * (1.0f / 65535);
-      return space == ColorSpace::srgb ? srgb_to_linear(value) : value;
+      const auto* p = reinterpret_cast<const std::uint16_t*>(data);
+      const auto linear = [p](std::size_t i) { return float(p[i]) * (1.0f / 65535); };
+      if (space == ColorSpace::linear) return use(linear, linear);
+      return use([linear](std::size_t i) { return srgb_to_linear(linear(i)); }, linear);
     }
-    case PixelType::f16:
-      return reinterpret_cast<const Imath::half*>(data)[i];
-    case PixelType::f32:
-      return reinterpret_cast<const float*>(data)[i];
+    case PixelType::f16: {
+      const auto* p = reinterpret_cast<const Imath::half*>(data);
+      const auto value = [p](std::size_t i) { return float(p[i]); };
+      return use(value, value);
+    }
+    case PixelType::f32: {
+      const auto* p = reinterpret_cast<const float*>(data);
+      const auto value = [p](std::size_t i) { return p[i]; };
+      return use(value, value);
+    }
   }
-  return 0;
+  return Vec4f(0);
+}
+
+template <class Color, class Alpha>
+Vec4f decode(const Image& image, int x, int y, const Color& color, const Alpha& alpha) {
+  const std::size_t i = (std::size_t(y) * image.width + x) * image.channels;
+  if (image.channels <= 2) {
+    const float grey = color(i);
+    return {grey, grey, grey, image.channels == 2 ? alpha(i + 1) : 1};
+  }
+  return {color(i), color(i + 1), color(i + 2), image.channels == 4 ? alpha(i + 3) : 1};
 }
 
 int wrap_index(int i, int size, Wrap wrap) {
+  if (unsigned(i) < unsigned(size)) return i;
   switch (wrap) {
     case Wrap::repeat:
       i %= size;
@@ -56,28 +80,23 @@ float texel_coordinate(float u, int size) { return std::clamp(u * float(size), -
 }  // namespace
 
 Vec4f texel(const Image& image, int x, int y, ColorSpace space) {
-  const std::size_t first = (std::size_t(y) * image.width + x) * image.channels;
-  if (image.channels <= 2) {
-    const float grey = channel(image, first, space);
-    return {grey, grey, grey, image.channels == 2 ? channel(image, first + 1, ColorSpace::linear) : 1};
-  }
-  return {channel(image, first, space), channel(image, first + 1, space), channel(image, first + 2, space),
-          image.channels == 4 ? channel(image, first + 3, ColorSpace::linear) : 1};
+  return with_decoder(image, space, [&](const auto& color, const auto& alpha) { return decode(image, x, y, color, alpha); });
 }
 
 Vec4f eval_texture(const Scene& scene, const Texture& texture, const Vec2f& uv, ColorSpace space) {
   const Image& image = scene.images[texture.image];
   float x = texel_coordinate(uv.x, image.width), y = texel_coordinate(uv.y, image.height);
-  const auto at = [&](int i, int j) {
-    return texel(image, wrap_index(i, image.width, texture.wrap_s), wrap_index(j, image.height, texture.wrap_t), space);
-  };
-  if (texture.filter == Filter::nearest) return at(int(std::floor(x)), int(std::floor(y)));
+  const auto column = [&](int i) { return wrap_index(i, image.width, texture.wrap_s); };
+  const auto row = [&](int j) { return wrap_index(j, image.height, texture.wrap_t); };
+  if (texture.filter == Filter::nearest) return texel(image, column(int(std::floor(x))), row(int(std::floor(y))), space);
   x -= 0.5f;
   y -= 0.5f;
-  const int i = int(std::floor(x)), j = int(std::floor(y));
-  const float fx = x - float(i), fy = y - float(j);
-  return (at(i, j) * (1 - fx) + at(i + 1, j) * fx) * (1 - fy) +
-         (at(i, j + 1) * (1 - fx) + at(i + 1, j + 1) * fx) * fy;
+  const float left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
+  const int x0 = column(int(left)), x1 = column(int(left) + 1), y0 = row(int(top)), y1 = row(int(top) + 1);
+  return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
+    const auto at = [&](int i, int j) { return decode(image, i, j, color, alpha); };
+    return (at(x0, y0) * (1 - fx) + at(x1, y0) * fx) * (1 - fy) + (at(x0, y1) * (1 - fx) + at(x1, y1) * fx) * fy;
+  });
 }
 
 Vec4f eval_texture(const Scene& scene, const TextureRef& ref, const std::array<Vec2f, 2>& uvs, ColorSpace space) {

@@ -122,7 +122,9 @@ class WorldBuilder {
     if (to_world.determinant() == 0) return;
     const bool identity = is_identity(to_world);
     world_.placements.push_back({to_world, node, mesh, first_part_[mesh], world_.slot_count,
-                                 identity ? 0 : condition_number(matrix), identity});
+                                 identity ? 0 : condition_number(matrix),
+                                 max_component(abs(to_world.x) + abs(to_world.y) + abs(to_world.z)),
+                                 max_component(abs(to_world.origin)), identity});
     for (std::size_t i = 0; i < scene_.meshes[mesh].primitives.size(); ++i) {
       const Box3f& box = world_.parts[first_part_[mesh] + i].bounds;
       if (box.isEmpty()) continue;

@@ -28,10 +28,14 @@ struct Placement {
   int node, mesh;
   std::uint32_t first_part;  // World::parts[first_part + primitive]
   std::uint32_t first_slot;  // numbers all primitives of all placements in order
-  // Bounds what rounding in the map to object space and back does to a point, as a multiple of its coordinates: the
-  // largest row sum of |M| |M^-1| (Higham, 7.1); 0 for the identity.
-  float condition;
+  // Rounding: what the map to object space and back does to a point, as a multiple of its coordinates, is bounded by
+  // the largest row sum of |M| |M^-1| (Higham, 7.1), and the coordinates by those in object space times `growth`, the
+  // largest row sum of |M|, plus the largest of the origin.
+  float condition, growth, reach;
   bool identity;
+
+  /// Bounds the world-space coordinates that rounding works on, from those in object space.
+  float extent(float object_extent) const { return (1 + condition) * (growth * object_extent + reach); }
 };
 
 /// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and opaque
