@@ -81,6 +81,7 @@ struct Accel::Impl {
   RTCScene top = nullptr;
   std::vector<RTCScene> mesh_scenes;  // by mesh; null where the mesh is not instanced
   std::vector<TopEntry> entries;      // by geometry id of the top level
+  std::vector<SharedArray<Triangle>> kept;  // indices, which Embree reads where they are; an edited scene may hold others
   std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
 
   Impl(const Scene& s, const World& w, bool edit) : scene(&s), world(&w), editable(edit) {
@@ -114,6 +115,7 @@ struct Accel::Impl {
 
   RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
     const Primitive& primitive = *part.primitive;
+    kept.push_back(primitive.triangles);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, primitive.triangles.data(), 0,
                                sizeof(Triangle), primitive.triangles.size());
