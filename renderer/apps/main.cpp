@@ -23,6 +23,10 @@ int main(int argc, char** argv) {
       if (*subcommand) return run();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
+      fmt::print(stderr, "parian: no command \"{}\"; there are: render, display, info\n", argv[1]);
+      return kBadUsage;
+    }
     fmt::print(stderr, "parian: {}\n", error.what());
     return kBadUsage;
   } catch (const UsageError& error) {

@@ -144,16 +144,14 @@ void check_outputs(const RenderOptions& o) {
     throw UsageError(fmt::format("--view {}: no such view; there are: {}", o.view, fmt::join(views, ", ")));
 }
 
-std::shared_ptr<const Scene> load(const RenderOptions& o) {
-  std::vector<std::string> warnings;
-  auto scene = std::make_shared<Scene>(load_scene(o.scenes, warnings));
+/// The scene to render; `notes` holds what it lacks and what was skipped.
+std::shared_ptr<const Scene> load(const RenderOptions& o, std::vector<std::string>& notes) {
+  auto scene = std::make_shared<Scene>(load_scene(o.scenes, notes));
   if (!o.environment.empty()) {
     scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
     scene->images.push_back(read_image(o.environment));
   }
-  for (const std::string& note : add_missing_camera_and_light(*scene)) warnings.push_back(note);
-  if (!o.quiet)
-    for (const std::string& warning : warnings) fmt::print(stderr, "parian: note: {}\n", warning);
+  for (const std::string& note : add_missing_camera_and_light(*scene)) notes.push_back(note);
   return scene;
 }
 
@@ -206,17 +204,18 @@ void write_pictures(const Session& session, const RenderOptions& o, double rende
 
 int render(RenderOptions o) {
   check_outputs(o);
+  Vec2i size = o.size.empty() ? Vec2i(0) : parse_size(o.size);
   if (o.threads > 0) set_thread_count(o.threads);
   o.settings.layers = film_layers(o.layers);
   std::unique_ptr<Integrator> integrator = make_integrator(o.integrator, o.integrator_settings);
 
   PhaseSeconds seconds;
   Clock::time_point clock = Clock::now();
-  const std::shared_ptr<const Scene> scene = load(o);
+  std::vector<std::string> notes;
+  const std::shared_ptr<const Scene> scene = load(o, notes);
   const std::vector<CameraPlacement> cameras = place_cameras(*scene);
   o.settings.camera = find_camera(*scene, cameras, o.camera);
-  const Vec2i size =
-      o.size.empty() ? default_size(scene->cameras[cameras[o.settings.camera].camera]) : parse_size(o.size);
+  if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
   o.settings.width = size.x;
   o.settings.height = size.y;
   const std::string key = o.checkpoint.empty() && o.resume.empty() ? "" : checkpoint_key(o);
@@ -225,6 +224,9 @@ int render(RenderOptions o) {
   Session session(scene, o.settings, std::move(integrator));
   if (!o.resume.empty()) read_checkpoint(o.resume, key, session.film());
   seconds.build = lap(clock);
+  // Only now: an error above is the first line of all.
+  if (!o.quiet)
+    for (const std::string& note : notes) fmt::print(stderr, "parian: note: {}\n", note);
 
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -255,13 +257,13 @@ Command add_render_command(CLI::App& app) {
   c.add_option("-o,--output", o.output, "Linear Rec.709 EXR to write, with its layers")->type_name("FILE.exr");
   c.add_option("--display", o.display, "Display-referred 8-bit picture to write")->type_name("FILE.png");
   c.add_option("--view", o.view, "OpenColorIO view of --display; the config's first by default")->type_name("NAME");
-  c.add_option("--exposure", o.exposure, "Stops added before the view [0]")->check(CLI::Range(-100.0f, 100.0f).description(""));
+  c.add_option("--exposure", o.exposure, "Stops added before the view [0]")->check(number_between(-100, 100));
   c.add_option("--size", o.size, "Picture size; by default 960 wide in the camera's shape")->type_name("WxH");
   c.add_option("--camera", o.camera, "Camera by name or number; the first by default")->type_name("NAME|INDEX");
   c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")->type_name("FILE");
   auto* spp = c.add_option("--spp", o.settings.spp, "Samples for each pixel [64]")->check(CLI::Range(1u, 1u << 30).description(""));
   c.add_option("--time", o.settings.seconds, "Seconds to render instead of a number of samples")
-      ->check(CLI::Range(1e-3, 1e9).description(""))
+      ->check(number_between(1e-3, 1e9))
       ->excludes(spp);
   c.add_option("--integrator", o.integrator, fmt::format("What to compute [path]: {}", fmt::join(integrator_names(), ", ")))
       ->type_name("NAME");
@@ -270,7 +272,7 @@ Command add_render_command(CLI::App& app) {
       ->check(CLI::Range(0, 1 << 20).description(""));
   c.add_option("--ao-distance", o.integrator_settings.occlusion_distance,
                "ao: metres within which an occluder counts; 0: any distance [0]")
-      ->check(CLI::Range(0.0f, std::numeric_limits<float>::max()).description(""));
+      ->check(number_between(0, 1e30));
   add_choice(c, "--sampler", o.settings.sampler, kSamplers, "Random sequence [sobol]");
   add_choice(c, "--filter", o.settings.filter, kFilters, "Reconstruction filter [blackman-harris]");
   o.layers = {"variance"};
