@@ -74,7 +74,8 @@ TEST(Bsdf, SamplesWithItsDensityInTheWorld) {
         return s->wi;
       };
       const Vec3f n = ns * side;
-      const SphereCells cells{.axis = normalize(n * (2 * n.dot(wo)) - wo), .zoom = 0.01, .tolerance = 1e-6};
+      const SphereCells cells{
+          .axis = normalize(n * (2 * n.dot(wo)) - wo), .zoom = 0.01, .tolerance = 1e-6, .depth = 5};
       EXPECT_TRUE(samples_directions(
           sample, [&](const Vec3f& w) { return bsdf.eval(w).pdf; }, cells, 100000, 6));
     }

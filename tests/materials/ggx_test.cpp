@@ -17,7 +17,9 @@ Vec3f at_cosine(float cosine, float phi = 0.7f) {
 }
 
 /// Cells that resolve facet normals: the inmost rings are much narrower than alpha.
-SphereCells facet_cells(float alpha) { return {.zoom = 0.1 * alpha * alpha, .rings = 30, .sectors = 16}; }
+SphereCells facet_cells(float alpha) {
+  return {.zoom = 0.1 * alpha * alpha, .rings = 30, .sectors = 16, .depth = 5};
+}
 
 // The integral of D(h) cos h is 1 (Walter et al. 2007, eq. 4). Catches alpha for alpha^2 and a lost pi.
 TEST(Ggx, FacetsCoverTheSurfaceOnce) {
