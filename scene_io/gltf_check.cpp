@@ -37,9 +37,9 @@ bool fits(std::size_t view_bytes, std::size_t offset, std::size_t count, std::si
 void check_sparse(const GltfDocument& document, const tinygltf::Accessor& accessor,
                   const std::string& where) {
   const auto& sparse = accessor.sparse;
-  const auto check_part = [&](int view, int offset, std::size_t element, const char* name) {
+  const auto check_part = [&](int view, std::size_t offset, std::size_t element, const char* name) {
     const std::size_t bytes = document.model.bufferViews[std::size_t(view)].byteLength;
-    if (!fits(bytes, std::size_t(offset), std::size_t(sparse.count), element, element)) {
+    if (!fits(bytes, offset, std::size_t(sparse.count), element, element)) {
       document.fail(fmt::format("{}/sparse/{}", where, name),
                     fmt::format("expected {} elements inside the {} bytes of bufferView {}", sparse.count,
                                 bytes, view));

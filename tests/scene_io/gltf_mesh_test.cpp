@@ -1,7 +1,8 @@
 // Meshes: topology, attributes, and what is left out.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <functional>
+#include <utility>
 
 #include "tests/scene_io/support/gltf_builder.h"
 
