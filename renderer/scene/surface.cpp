@@ -8,6 +8,14 @@ T interpolate(const SharedArray<T>& values, const Triangle& t, float u, float v)
   return values[t[0]] * (1 - u - v) + values[t[1]] * u + values[t[2]] * v;
 }
 
+/// Unit vector along v, whose square may leave the range of a float; `otherwise` where v has no direction.
+Vec3f direction_of(const Vec3f& v, const Vec3f& otherwise) {
+  const float length2 = v.dot(v);
+  if (length2 > 1e-30f && length2 < 1e30f) return v * (1 / std::sqrt(length2));
+  const float largest = max_component(abs(v));
+  return largest > 0 && largest < kInfinity ? normalize(v / largest) : otherwise;
+}
+
 /// dp/du of the triangle in uv set `set`, world space; zero where the uvs are degenerate.
 Vec3f uv_tangent(const Primitive& primitive, const Triangle& t, int set, const Vec3f& e1, const Vec3f& e2) {
   const SharedArray<Vec2f>& uvs = primitive.uvs[set];
@@ -74,7 +82,7 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
     normal = m.normal(normal);
     extent = placement.extent(extent);
   }
-  s.ng = normalize(normal);
+  s.ng = direction_of(normal, s.wo);
   s.offset = plane_offset(extent);
   s.front = s.wo.dot(s.ng) >= 0;
   if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
@@ -83,9 +91,7 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
   Vec3f ns = s.ng;
   if (!primitive.normals.empty()) {
     const Vec3f local = interpolate(primitive.normals, t, hit.u, hit.v);
-    const Vec3f world_normal = placement.identity ? local : placement.to_world.normal(local);
-    const float length2 = world_normal.dot(world_normal);
-    if (length2 > 0) ns = world_normal * (1 / std::sqrt(length2));
+    ns = direction_of(placement.identity ? local : placement.to_world.normal(local), s.ng);
   }
   if (part.needs_tangent) ns = map_normal(scene, s, placement, hit, ns, e1, e2);
   if (!s.front) ns = -ns;
