@@ -20,7 +20,8 @@ Rgb AmbientOcclusionIntegrator::radiance(const TraceContext& context, const Ray&
   if ((w.dot(surface.ng) > 0) != surface.front) return Rgb(0, 0, 0);
   const float distance = settings_.occlusion_distance > 0 ? settings_.occlusion_distance : kInfinity;
   ++counts.shadow;
-  return context.accel.occluded({ray_origin(surface, w), w, distance}, sampler.hash()) ? Rgb(0, 0, 0) : Rgb(1, 1, 1);
+  return context.accel.occluded({ray_origin(surface, w), w, distance}, sampler.hash()) ? Rgb(0, 0, 0)
+                                                                                       : Rgb(1, 1, 1);
 }
 
 }  // namespace parian

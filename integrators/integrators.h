@@ -9,8 +9,9 @@
 
 namespace parian {
 
-/// Which samples find direct light: lights alone, directions of the BSDF alone, or both combined by multiple importance
-/// sampling. Lights that only sampling them can find (point, spot, directional) are sampled in all three.
+/// Which samples find direct light: lights alone, directions of the BSDF alone, or both combined by multiple
+/// importance sampling. Lights that only sampling them can find (point, spot, directional) are sampled in all
+/// three.
 enum class Strategy : std::uint8_t { mis, light, bsdf };
 
 struct IntegratorSettings {

@@ -6,11 +6,12 @@
 namespace parian {
 namespace {
 
-// A shadow ray ends this far, relative to its length, before the light: Embree's distance is good to some 1e-6.
+// A shadow ray ends this far, relative to its length, before the light: Embree's distance is good to some
+// 1e-6.
 constexpr float kShadowEnd = 1 - 1e-5f;
 
-/// One path as it grows. `pdf` is the density per solid angle of its last direction; infinite for the camera's, which
-/// no light sample competes with.
+/// One path as it grows. `pdf` is the density per solid angle of its last direction; infinite for the
+/// camera's, which no light sample competes with.
 struct Path {
   const TraceContext& context;
   const IntegratorSettings& settings;
@@ -20,7 +21,8 @@ struct Path {
   Rgb weight{1, 1, 1}, radiance{0, 0, 0};
   float pdf = kInfinity;
 
-  /// The weight of light that the path ran into, where sampling lights would have found it with density `light_pdf`.
+  /// The weight of light that the path ran into, where sampling lights would have found it with density
+  /// `light_pdf`.
   float hit_weight(float light_pdf) const {
     if (pdf == kInfinity || settings.strategy == Strategy::bsdf) return 1;
     if (settings.strategy == Strategy::light) return light_pdf > 0 ? 0.0f : 1.0f;
@@ -38,14 +40,16 @@ struct Path {
     const AreaLight& light = context.world.area_lights[hit.triangle];
     const float cosine = -ray.d.dot(light.normal);
     if (cosine <= 0) return;
-    radiance += weight * light.radiance * hit_weight(pdf == kInfinity ? 0 : context.lights.pdf_area_light(hit, cosine));
+    radiance += weight * light.radiance *
+                hit_weight(pdf == kInfinity ? 0 : context.lights.pdf_area_light(hit, cosine));
   }
 
   void add_emission(const Surface& surface, const Hit& hit) {
     if (!surface.front && !surface.part->material->double_sided) return;
     const float cosine = std::abs(ray.d.dot(surface.ng));
     const float competing = pdf == kInfinity || cosine == 0 ? 0 : context.lights.pdf_triangle(hit, cosine);
-    radiance += weight * eval_emission(context.scene, *surface.part->material, surface.uvs) * hit_weight(competing);
+    radiance +=
+        weight * eval_emission(context.scene, *surface.part->material, surface.uvs) * hit_weight(competing);
   }
 
   /// Light that reaches the surface straight from a sampled point of a sampled light.
@@ -60,7 +64,8 @@ struct Path {
     const Rgb contribution = weight * value.f_cos * light->radiance * (share / light->pdf);
     if (is_black(contribution)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
-    const Ray shadow = light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd};
+    const Ray shadow =
+        light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd};
     ++counts.shadow;
     if (!context.accel.occluded(shadow, sampler.hash())) radiance += contribution;
   }
@@ -90,8 +95,8 @@ struct Path {
 
 }  // namespace
 
-Rgb PathIntegrator::radiance(const TraceContext& context, const Ray& camera_ray, Sampler& sampler, RayCounts& counts,
-                             Features* features) const {
+Rgb PathIntegrator::radiance(const TraceContext& context, const Ray& camera_ray, Sampler& sampler,
+                             RayCounts& counts, Features* features) const {
   Path path{context, settings_, sampler, counts, camera_ray};
   for (int depth = 0;; ++depth) {
     Hit hit;

@@ -1,4 +1,5 @@
-/// The path integrator: unidirectional path tracing with next-event estimation and multiple importance sampling.
+/// The path integrator: unidirectional path tracing with next-event estimation and multiple importance
+/// sampling.
 #pragma once
 
 #include "integrators/integrators.h"

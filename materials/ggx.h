@@ -1,5 +1,5 @@
-/// The GGX (Trowbridge-Reitz) distribution of microfacet normals with Smith's height-correlated masking, isotropic.
-/// Directions are in the shading frame, unit.
+/// The GGX (Trowbridge-Reitz) distribution of microfacet normals with Smith's height-correlated masking,
+/// isotropic. Directions are in the shading frame, unit.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -12,8 +12,8 @@ struct Ggx {
   /// Below this a lobe is narrower than single precision resolves well; a mirror is rendered as this lobe.
   static constexpr float kMinAlpha = 1e-4f;
 
-  /// Density of facet normals D(h), per projected area and solid angle. Written without 1 - cos^2, which cancels for
-  /// small alpha (Walter et al. 2007, eq. 33).
+  /// Density of facet normals D(h), per projected area and solid angle. Written without 1 - cos^2, which
+  /// cancels for small alpha (Walter et al. 2007, eq. 33).
   float d(const Vec3f& h) const {
     const float a2 = alpha * alpha;
     const float t = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
@@ -36,7 +36,8 @@ struct Ggx {
     return g1(wo) * d(h) * std::max(0.0f, wo.dot(h)) / wo.z;
   }
 
-  /// A facet normal as seen from wo (Dupuy and Benyoub 2023, Sampling Visible GGX Normals with Spherical Caps).
+  /// A facet normal as seen from wo (Dupuy and Benyoub 2023, Sampling Visible GGX Normals with Spherical
+  /// Caps).
   Vec3f sample_visible_normal(const Vec3f& wo, const Vec2f& u) const {
     const Vec3f warped = normalize(Vec3f(wo.x * alpha, wo.y * alpha, wo.z));
     const float phi = 2 * kPi * u.x;

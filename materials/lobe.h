@@ -1,5 +1,6 @@
-/// What a lobe is: a value type that evaluates and samples a BSDF in the shading frame (z is the shading normal, on the
-/// side of the viewer). wo points to the viewer and wi to the light, both unit, both away from the surface; wo.z > 0.
+/// What a lobe is: a value type that evaluates and samples a BSDF in the shading frame (z is the shading
+/// normal, on the side of the viewer). wo points to the viewer and wi to the light, both unit, both away from
+/// the surface; wo.z > 0.
 #pragma once
 
 #include <concepts>

@@ -1,5 +1,5 @@
-/// The metallic-roughness surface of glTF 2.0 (appendix B): a diffuse base under a dielectric microfacet coat, mixed
-/// with a metal of the same microfacets.
+/// The metallic-roughness surface of glTF 2.0 (appendix B): a diffuse base under a dielectric microfacet
+/// coat, mixed with a metal of the same microfacets.
 #pragma once
 
 #include "materials/ggx.h"
@@ -8,14 +8,14 @@
 
 namespace parian {
 
-/// f = (1 - metallic) ((1 - max F) base / pi + F s) + metallic Fm s, where s = D G / (4 cos cos), F is Schlick's
-/// dielectric reflectance (KHR_materials_specular) and Fm that of the metal, both at the angle between wo and the half
-/// vector.
+/// f = (1 - metallic) ((1 - max F) base / pi + F s) + metallic Fm s, where s = D G / (4 cos cos), F is
+/// Schlick's dielectric reflectance (KHR_materials_specular) and Fm that of the metal, both at the angle
+/// between wo and the half vector.
 struct MetallicRoughness {
-  Rgb base;         // base colour
+  Rgb base;  // base colour
   float metallic;
-  Rgb f0;           // dielectric reflectance at normal incidence, specular weight included
-  float f90;        // and at grazing: the specular weight
+  Rgb f0;     // dielectric reflectance at normal incidence, specular weight included
+  float f90;  // and at grazing: the specular weight
   Ggx ggx;
 
   BsdfValue eval(const Vec3f& wo, const Vec3f& wi) const {

@@ -2,17 +2,13 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -21,12 +17,12 @@
 #include <vector>
 
 #include "renderer/base/error.h"
+#include "renderer/base/file.h"
 #include "renderer/base/parallel.h"
 
 namespace parian {
 namespace {
 
-namespace fs = std::filesystem;
 using Bytes = std::span<const std::byte>;
 
 // A side longer than this is a broken header, not a picture.
@@ -49,20 +45,6 @@ void configure_oiio() {
     OIIO::attribute("debug", 0);  // Debian's build would print remarks of its own
     OIIO::attribute("exr_threads", thread_count());
   });
-}
-
-std::vector<std::byte> read_file(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw InputError(path, "", "no such file");
-  if (!fs::is_regular_file(status)) throw InputError(path, "", "expected a file");
-  std::ifstream file(path, std::ios::binary);
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (!file || error) throw InputError(path, "", fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::vector<std::byte> bytes(size);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
-    throw InputError(path, "", "cannot be read to its end");
-  return bytes;
 }
 
 bool starts_with(Bytes bytes, std::string_view magic, std::size_t at = 0) {
@@ -291,30 +273,8 @@ void unpremultiply_webp(std::byte* pixels, std::size_t count) {
   }
 }
 
-// The bytes become the file at `path`, or `path` stays as it was.
-void write_whole(const std::string& path, std::span<const unsigned char> bytes) {
-  static std::atomic<int> serial{0};
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw InputError(path, "", "cannot be written: it is not a file");
-  const std::string temporary = fmt::format("{}.{}-{}.tmp", path, ::getpid(), serial++);
-  errno = 0;
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-  file.close();
-  std::string reason = file ? "" : std::strerror(errno);
-  if (reason.empty()) {
-    fs::rename(temporary, path, error);
-    if (error) reason = error.message();
-  }
-  if (!reason.empty()) {
-    fs::remove(temporary, error);
-    throw InputError(path, "", fmt::format("cannot be written: {}", reason));
-  }
-}
-
-std::vector<unsigned char> encode(const char* format, const OIIO::ImageSpec& spec, const void* pixels,
-                                  const std::string& path) {
+std::string encode(const char* format, const OIIO::ImageSpec& spec, const void* pixels,
+                   const std::string& path) {
   configure_oiio();
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
@@ -323,7 +283,7 @@ std::vector<unsigned char> encode(const char* format, const OIIO::ImageSpec& spe
   output->threads(1);
   if (!output->open(path, spec) || !output->write_image(spec.format, pixels) || !output->close())
     throw InputError(path, "", fmt::format("cannot be encoded: {}", first_line(output->geterror())));
-  return bytes;
+  return {bytes.begin(), bytes.end()};
 }
 
 int channel_index(const Picture& picture, std::string_view name, const std::string& path) {
@@ -363,13 +323,13 @@ Image read_image(Bytes encoded, const std::string& name) try {
 }
 
 Image read_image(const std::string& path) {
-  const std::vector<std::byte> bytes = read_file(path);
-  return read_image(bytes, path);
+  const std::vector<char> bytes = read_file(path);
+  return read_image(std::as_bytes(std::span(bytes)), path);
 }
 
 Picture read_picture(const std::string& path) try {
-  const std::vector<std::byte> bytes = read_file(path);
-  Reader reader(bytes, path);
+  const std::vector<char> bytes = read_file(path);
+  Reader reader(std::as_bytes(std::span(bytes)), path);
   Picture picture;
   picture.width = reader.spec.width;
   picture.height = reader.spec.height;
@@ -407,11 +367,11 @@ void write_exr(const Picture& picture, const std::string& path) {
   // The writer adds the time of day where this attribute is not there, and skips one of a wrong type: the
   // same picture has to give the same bytes.
   spec.attribute("DateTime", 0);
-  write_whole(path, encode("openexr", spec, picture.pixels.data(), path));
+  write_file(path, encode("openexr", spec, picture.pixels.data(), path));
 }
 
 void write_display_image(const Picture& picture, const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
+  std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
   if (!jpeg && extension != ".png")
@@ -432,7 +392,7 @@ void write_display_image(const Picture& picture, const std::string& path) {
     spec.attribute("Compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");
   }
-  write_whole(path, encode(jpeg ? "jpeg" : "png", spec, pixels.data(), path));
+  write_file(path, encode(jpeg ? "jpeg" : "png", spec, pixels.data(), path));
 }
 
 }  // namespace parian

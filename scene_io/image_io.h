@@ -10,21 +10,22 @@
 
 namespace parian {
 
-/// Decodes an image at its own bit depth (8 and 16 bit integers, half, float); alpha unassociated, as glTF stores
-/// it; at most 4 channels. `name` names it in messages. Throws InputError (unreadable, truncated, unsupported,
-/// absurd size, NaN or Inf texels).
+/// Decodes an image at its own bit depth (8 and 16 bit integers, half, float); alpha unassociated, as glTF
+/// stores it; at most 4 channels. `name` names it in messages. Throws InputError (unreadable, truncated,
+/// unsupported, absurd size, NaN or Inf texels).
 Image read_image(const std::string& path);
 Image read_image(std::span<const std::byte> encoded, const std::string& name);
 
 /// Reads a picture (EXR or any other format) with all its channels and string metadata. Throws InputError.
 Picture read_picture(const std::string& path);
 
-/// Writes every channel as 32-bit float EXR (ZIP compression), metadata in the header, data in linear Rec.709. The
-/// file appears whole or not at all (temporary file beside it, then rename). Throws InputError naming the path.
+/// Writes every channel as 32-bit float EXR (ZIP compression), metadata in the header, data in linear
+/// Rec.709. The file appears whole or not at all (temporary file beside it, then rename). Throws InputError
+/// naming the path.
 void write_exr(const Picture& picture, const std::string& path);
 
-/// Writes channels R, G, B, already display-referred in [0, 1], as 8-bit PNG or JPEG by extension, rounded to nearest.
-/// Whole or not at all. Throws InputError (unwritable, or an extension that is neither).
+/// Writes channels R, G, B, already display-referred in [0, 1], as 8-bit PNG or JPEG by extension, rounded to
+/// nearest. Whole or not at all. Throws InputError (unwritable, or an extension that is neither).
 void write_display_image(const Picture& picture, const std::string& path);
 
 }  // namespace parian

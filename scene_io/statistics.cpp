@@ -61,34 +61,41 @@ SceneStatistics scene_statistics(const Scene& scene, const World& world) {
 std::string describe(const Scene& scene, const World& world) {
   const SceneStatistics s = scene_statistics(scene, world);
   std::string text;
-  const auto line = [&](std::string_view name, const std::string& value) { text += fmt::format("{:<12} {}\n", name, value); };
+  const auto line = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<12} {}\n", name, value);
+  };
   line("triangles", fmt::format("{} stored in {} meshes, {} drawn by {} placements", s.triangles_stored,
                                 scene.meshes.size(), s.triangles_drawn, s.placements));
   if (!world.bounds.isEmpty()) {
     const Vec3f size = world.bounds.size(), center = world.bounds.center();
-    line("bounds", fmt::format("{:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g})", size.x, size.y, size.z,
-                               center.x, center.y, center.z));
+    line("bounds", fmt::format("{:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g})", size.x, size.y,
+                               size.z, center.x, center.y, center.z));
   }
-  line("materials", fmt::format("{}, {} primitives tested for alpha", scene.materials.size(), s.alpha_primitives));
-  line("lights", fmt::format("{} emissive triangles, {} rectangles and disks, {} punctual, {}", s.emissive_triangles,
-                             world.area_lights.size(), world.punctual_lights.size(),
-                             is_black(scene.environment.radiance)   ? "no environment"
-                             : scene.environment.image == kNone ? "a constant environment"
-                                                                    : "an environment map"));
+  line("materials",
+       fmt::format("{}, {} primitives tested for alpha", scene.materials.size(), s.alpha_primitives));
+  line("lights", fmt::format("{} emissive triangles, {} rectangles and disks, {} punctual, {}",
+                             s.emissive_triangles, world.area_lights.size(), world.punctual_lights.size(),
+                             is_black(scene.environment.radiance) ? "no environment"
+                             : scene.environment.image == kNone   ? "a constant environment"
+                                                                  : "an environment map"));
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
     const Camera& camera = scene.cameras[world.cameras[i].camera];
     const std::string& node = scene.nodes[world.cameras[i].node].name;
-    line(fmt::format("camera {}", i), fmt::format("\"{}\", {}{}", node.empty() ? camera.name : node,
-                                                   camera.projection == Projection::perspective ? "perspective" : "orthographic",
-                                                   camera.lens ? ", thin lens" : ""));
+    line(fmt::format("camera {}", i),
+         fmt::format("\"{}\", {}{}", node.empty() ? camera.name : node,
+                     camera.projection == Projection::perspective ? "perspective" : "orthographic",
+                     camera.lens ? ", thin lens" : ""));
   }
   for (const Image& image : scene.images)
     if (!image.pixels.empty())
-      line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height, image.channels,
-                                pixel_type_name(image.type), format_bytes(double(image.pixels.bytes()))));
-  const double accel = kAccelBytesPerTriangle * double(s.triangles_stored) + kAccelBytesPerPlacement * double(s.placements);
-  line("memory", fmt::format("{} geometry, {} images, about {} acceleration structure", format_bytes(double(s.geometry_bytes)),
-                             format_bytes(double(s.image_bytes)), format_bytes(accel)));
+      line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height,
+                                image.channels, pixel_type_name(image.type),
+                                format_bytes(double(image.pixels.bytes()))));
+  const double accel =
+      kAccelBytesPerTriangle * double(s.triangles_stored) + kAccelBytesPerPlacement * double(s.placements);
+  line("memory", fmt::format("{} geometry, {} images, about {} acceleration structure",
+                             format_bytes(double(s.geometry_bytes)), format_bytes(double(s.image_bytes)),
+                             format_bytes(accel)));
   return text;
 }
 

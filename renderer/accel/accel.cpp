@@ -22,8 +22,8 @@ struct Query : EmbreeContext {
   std::uint32_t random;
 };
 
-/// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that a triangle
-/// met twice by one ray decides alike.
+/// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that
+/// a triangle met twice by one ray decides alike.
 void alpha_filter(const RTCFilterFunctionNArguments* a) {
   const Part& part = *static_cast<const Part*>(a->geometryUserPtr);
   const auto* query = static_cast<const Query*>(a->context);
@@ -81,7 +81,8 @@ struct Accel::Impl {
   RTCScene top = nullptr;
   std::vector<RTCScene> mesh_scenes;  // by mesh; null where the mesh is not instanced
   std::vector<TopEntry> entries;      // by geometry id of the top level
-  std::vector<SharedArray<Triangle>> kept;  // indices, which Embree reads where they are; an edited scene may hold others
+  std::vector<SharedArray<Triangle>>
+      kept;  // indices, which Embree reads where they are; an edited scene may hold others
   std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
 
   Impl(const Scene& s, const World& w, bool edit) : scene(&s), world(&w), editable(edit) {
@@ -117,8 +118,8 @@ struct Accel::Impl {
     const Primitive& primitive = *part.primitive;
     kept.push_back(primitive.triangles);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, primitive.triangles.data(), 0,
-                               sizeof(Triangle), primitive.triangles.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               primitive.triangles.data(), 0, sizeof(Triangle), primitive.triangles.size());
     fill_vertices(geometry, part, to_world);
     if (part.alpha) {
       rtcSetGeometryUserData(geometry, const_cast<void*>(static_cast<const void*>(&part)));
@@ -133,13 +134,14 @@ struct Accel::Impl {
   /// Embree reads 16 bytes at the last vertex, so memory that was not laid out for it is copied.
   void fill_vertices(RTCGeometry geometry, const Part& part, const Affine* to_world) {
     const SharedArray<Vec3f>& positions = part.primitive->positions;
-    auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                            sizeof(Vec3f), positions.size()));
+    auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size()));
     check("allocating vertices");
     constexpr std::size_t kChunk = 1 << 16;
     parallel_for((positions.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
       const std::size_t end = std::min(positions.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i) out[i] = to_world ? to_world->point(positions[i]) : positions[i];
+      for (std::size_t i = chunk * kChunk; i < end; ++i)
+        out[i] = to_world ? to_world->point(positions[i]) : positions[i];
     });
   }
 
@@ -187,8 +189,8 @@ struct Accel::Impl {
       rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
                               4 * world->area_lights.size());
       auto* indices = static_cast<std::uint32_t*>(
-          rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(std::uint32_t),
-                                  world->area_lights.size()));
+          rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                  4 * sizeof(std::uint32_t), world->area_lights.size()));
       for (std::uint32_t i = 0; i < 4 * world->area_lights.size(); ++i) indices[i] = i;
       set_area_lights(quads);
       attach(quads, Hit::kAreaLightHit, 0);
@@ -246,8 +248,8 @@ void Accel::rebind(const Scene& scene, const World& world) {
         rtcSetGeometryUserData(rtcGetGeometry(mesh, unsigned(i)),
                                const_cast<void*>(static_cast<const void*>(&world.parts[p.first_part + i])));
     } else {
-      rtcSetGeometryUserData(
-          geometry, const_cast<void*>(static_cast<const void*>(&world.part(placement, primitive))));
+      rtcSetGeometryUserData(geometry,
+                             const_cast<void*>(static_cast<const void*>(&world.part(placement, primitive))));
     }
   }
 }
@@ -288,7 +290,8 @@ bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit, bool coher
   if (r.hit.geomID == kInvalid) return false;
   const bool instanced = r.hit.instID[0] != kInvalid;
   const Impl::TopEntry& entry = impl_->entries[instanced ? r.hit.instID[0] : r.hit.geomID];
-  hit = {r.ray.tfar, r.hit.u, r.hit.v, entry.placement, instanced ? r.hit.geomID : entry.primitive, r.hit.primID};
+  hit = {r.ray.tfar,  r.hit.u, r.hit.v, entry.placement, instanced ? r.hit.geomID : entry.primitive,
+         r.hit.primID};
   return true;
 }
 

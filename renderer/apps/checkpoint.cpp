@@ -21,7 +21,9 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash;
 }
 
-void put(std::string& out, std::uint64_t value) { out.append(reinterpret_cast<const char*>(&value), sizeof(value)); }
+void put(std::string& out, std::uint64_t value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
 
 }  // namespace
 
@@ -49,11 +51,13 @@ void read_checkpoint(const std::string& path, const std::string& key, Film& film
     std::memcpy(&value, take(sizeof(value)).data(), sizeof(value));
     return value;
   };
-  if (rest.substr(0, kMarkSize) != kMark) throw InputError(path, "", "expected a checkpoint written by parian");
+  if (rest.substr(0, kMarkSize) != kMark)
+    throw InputError(path, "", "expected a checkpoint written by parian");
   take(kMarkSize);
   const std::string_view saved_key = take(take_number());
   if (saved_key != key)
-    throw InputError(path, "", fmt::format("is a checkpoint of another render: expected {}, found {}", key, saved_key));
+    throw InputError(path, "",
+                     fmt::format("is a checkpoint of another render: expected {}, found {}", key, saved_key));
   if (const std::uint64_t expected = take_number(); checksum(rest) != expected)
     throw InputError(path, "", "expected a whole checkpoint, its checksum is wrong");
   try {

@@ -1,4 +1,5 @@
-/// The subcommands of `parian`. Each adds itself to the command line and returns a program exit code when run.
+/// The subcommands of `parian`. Each adds itself to the command line and returns a program exit code when
+/// run.
 #pragma once
 
 #include <fmt/format.h>

@@ -14,7 +14,8 @@ Command add_display_command(CLI::App& app) {
   c.add_option("INPUT", o->input, "Linear Rec.709 picture")->required();
   c.add_option("OUTPUT", o->output, "PNG or JPEG to write")->required();
   c.add_option("--view", o->view, "OpenColorIO view; the config's first by default")->type_name("NAME");
-  c.add_option("--exposure", o->exposure, "Stops added before the view [0]")->check(number_between(-100, 100));
+  c.add_option("--exposure", o->exposure, "Stops added before the view [0]")
+      ->check(number_between(-100, 100));
   return [o] {
     write_display_image(apply_display(read_picture(o->input), o->view, o->exposure), o->output);
     return kDone;

@@ -11,7 +11,10 @@ constexpr double kBarInterval = 0.1, kLineInterval = 10;  // seconds
 }  // namespace
 
 ProgressBar::ProgressBar(bool quiet, double seconds)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO)), seconds_(seconds), next_(terminal_ ? 0 : kLineInterval) {}
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO)),
+      seconds_(seconds),
+      next_(terminal_ ? 0 : kLineInterval) {}
 
 void ProgressBar::show(const Session& session) {
   if (quiet_) return;
@@ -26,15 +29,16 @@ void ProgressBar::print(const Session& session, const Progress& progress) {
   const double remaining = seconds_ > 0 ? seconds_ - progress.seconds
                            : done > 0   ? progress.seconds * (1 / done - 1)
                                         : 0;
-  const std::string samples =
-      seconds_ > 0 ? fmt::format("{} spp", progress.samples) : fmt::format("{}/{} spp", progress.samples, progress.total);
-  const std::string state =
-      fmt::format("{}  {} elapsed, {} left, noise {:.2f}%", samples, format_duration(progress.seconds),
-                  done > 0 ? format_duration(std::max(0.0, remaining)) : "?", 100 * session.film().relative_noise());
+  const std::string samples = seconds_ > 0 ? fmt::format("{} spp", progress.samples)
+                                           : fmt::format("{}/{} spp", progress.samples, progress.total);
+  const std::string state = fmt::format(
+      "{}  {} elapsed, {} left, noise {:.2f}%", samples, format_duration(progress.seconds),
+      done > 0 ? format_duration(std::max(0.0, remaining)) : "?", 100 * session.film().relative_noise());
   if (terminal_) {
     constexpr int kWidth = 30;
     const int filled = std::clamp(int(done * kWidth), 0, kWidth);
-    fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(filled, '#'), std::string(kWidth - filled, '.'), state);
+    fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(filled, '#'), std::string(kWidth - filled, '.'),
+               state);
     shown_ = true;
   } else {
     fmt::print(stderr, "{}\n", state);
@@ -48,7 +52,8 @@ void ProgressBar::finish() {
 
 std::string format_duration(double seconds) {
   const long s = std::lround(seconds);
-  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
+  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
 }  // namespace parian

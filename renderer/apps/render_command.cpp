@@ -45,9 +45,12 @@ double lap(Clock::time_point& start) {
   return std::chrono::duration<double>(now - std::exchange(start, now)).count();
 }
 
-const std::map<std::string, Strategy> kStrategies{{"mis", Strategy::mis}, {"light", Strategy::light}, {"bsdf", Strategy::bsdf}};
-const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
-const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris}, {"box", FilterKind::box}};
+const std::map<std::string, Strategy> kStrategies{
+    {"mis", Strategy::mis}, {"light", Strategy::light}, {"bsdf", Strategy::bsdf}};
+const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol},
+                                                   {"independent", SamplerKind::independent}};
+const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris},
+                                                 {"box", FilterKind::box}};
 
 /// Adds an option whose value is one of the names of `choices`.
 template <class T>
@@ -77,7 +80,8 @@ int find_camera(const Scene& scene, const std::vector<CameraPlacement>& cameras,
   if (wanted.empty()) return 0;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const std::string &camera = scene.cameras[cameras[i].camera].name, &node = scene.nodes[cameras[i].node].name;
+    const std::string &camera = scene.cameras[cameras[i].camera].name,
+                      &node = scene.nodes[cameras[i].node].name;
     if (wanted == camera || wanted == node || wanted == std::to_string(i)) return int(i);
     names.push_back(fmt::format("{} \"{}\"", i, node.empty() ? camera : node));
   }
@@ -99,7 +103,8 @@ FilmLayers film_layers(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name == "none") continue;
     if (std::ranges::find(kLayerNames, name) == kLayerNames.end())
-      throw UsageError(fmt::format("--aov {}: no such layer; there are: {}, none", name, fmt::join(kLayerNames, ", ")));
+      throw UsageError(
+          fmt::format("--aov {}: no such layer; there are: {}, none", name, fmt::join(kLayerNames, ", ")));
     (name == "variance" ? layers.variance : name == "samples" ? layers.sample_count : layers.features) = true;
   }
   return layers;
@@ -131,7 +136,8 @@ void check_writable(const std::string& path) {
 
 /// Refuses before hours of rendering what could only fail after them.
 void check_outputs(const RenderOptions& o) {
-  if (o.output.empty() && o.display.empty()) throw UsageError("render: expected -o FILE.exr, --display FILE.png, or both");
+  if (o.output.empty() && o.display.empty())
+    throw UsageError("render: expected -o FILE.exr, --display FILE.png, or both");
   if (!o.output.empty() && std::filesystem::path(o.output).extension() != ".exr")
     throw UsageError(fmt::format("-o {}: expected a name that ends in .exr", o.output));
   for (const std::string* path : {&o.output, &o.display, &o.stats, &o.checkpoint}) check_writable(*path);
@@ -161,11 +167,12 @@ std::string checkpoint_key(const RenderOptions& o) {
   for (const std::string& path : o.scenes)
     for (const char c : read_file(path)) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3u;
   const RenderSettings& s = o.settings;
-  return fmt::format("scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
-                     "depth {} layers {}{}{}",
-                     hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter),
-                     o.integrator, int(o.integrator_settings.strategy), o.integrator_settings.max_depth,
-                     s.layers.variance, s.layers.sample_count, s.layers.features);
+  return fmt::format(
+      "scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
+      "depth {} layers {}{}{}",
+      hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
+      int(o.integrator_settings.strategy), o.integrator_settings.max_depth, s.layers.variance,
+      s.layers.sample_count, s.layers.features);
 }
 
 /// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
@@ -238,11 +245,12 @@ int render(RenderOptions o) {
   const SessionStats stats = session.stats();
   if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, session.progress()));
   if (stats.rays.dropped > 0)
-    fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n", stats.rays.dropped,
-               stats.rays.camera);
+    fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n",
+               stats.rays.dropped, stats.rays.camera);
   if (!o.quiet)
-    fmt::print(stderr, "{}x{}, {} spp, noise {:.2f}%, {} ({:.0f} camera paths per CPU second)\n", size.x, size.y,
-               session.film().min_samples(), 100 * session.film().relative_noise(), format_duration(seconds.render),
+    fmt::print(stderr, "{}x{}, {} spp, noise {:.2f}%, {} ({:.0f} camera paths per CPU second)\n", size.x,
+               size.y, session.film().min_samples(), 100 * session.film().relative_noise(),
+               format_duration(seconds.render),
                stats.render_cpu_seconds > 0 ? double(stats.rays.camera) / stats.render_cpu_seconds : 0);
   return stopped ? kInterrupted : kDone;
 }
@@ -250,25 +258,34 @@ int render(RenderOptions o) {
 }  // namespace
 
 Command add_render_command(CLI::App& app) {
-  CLI::App& c = *app.add_subcommand("render", "Render scenes to an EXR, and to a PNG through a display transform");
+  CLI::App& c =
+      *app.add_subcommand("render", "Render scenes to an EXR, and to a PNG through a display transform");
   const auto options = std::make_shared<RenderOptions>();
   RenderOptions& o = *options;
   c.add_option("SCENE", o.scenes, ".gltf or .glb files; several are composed into one scene")->required();
-  c.add_option("-o,--output", o.output, "Linear Rec.709 EXR to write, with its layers")->type_name("FILE.exr");
+  c.add_option("-o,--output", o.output, "Linear Rec.709 EXR to write, with its layers")
+      ->type_name("FILE.exr");
   c.add_option("--display", o.display, "Display-referred 8-bit picture to write")->type_name("FILE.png");
-  c.add_option("--view", o.view, "OpenColorIO view of --display; the config's first by default")->type_name("NAME");
+  c.add_option("--view", o.view, "OpenColorIO view of --display; the config's first by default")
+      ->type_name("NAME");
   c.add_option("--exposure", o.exposure, "Stops added before the view [0]")->check(number_between(-100, 100));
   c.add_option("--size", o.size, "Picture size; by default 960 wide in the camera's shape")->type_name("WxH");
-  c.add_option("--camera", o.camera, "Camera by name or number; the first by default")->type_name("NAME|INDEX");
-  c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")->type_name("FILE");
-  auto* spp = c.add_option("--spp", o.settings.spp, "Samples for each pixel [64]")->check(CLI::Range(1u, 1u << 30).description(""));
+  c.add_option("--camera", o.camera, "Camera by name or number; the first by default")
+      ->type_name("NAME|INDEX");
+  c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")
+      ->type_name("FILE");
+  auto* spp = c.add_option("--spp", o.settings.spp, "Samples for each pixel [64]")
+                  ->check(CLI::Range(1u, 1u << 30).description(""));
   c.add_option("--time", o.settings.seconds, "Seconds to render instead of a number of samples")
       ->check(number_between(1e-3, 1e9))
       ->excludes(spp);
-  c.add_option("--integrator", o.integrator, fmt::format("What to compute [path]: {}", fmt::join(integrator_names(), ", ")))
+  c.add_option("--integrator", o.integrator,
+               fmt::format("What to compute [path]: {}", fmt::join(integrator_names(), ", ")))
       ->type_name("NAME");
-  add_choice(c, "--strategy", o.integrator_settings.strategy, kStrategies, "path: how direct light is found [mis]");
-  c.add_option("--max-depth", o.integrator_settings.max_depth, "path: scattering events of a path at most [100]")
+  add_choice(c, "--strategy", o.integrator_settings.strategy, kStrategies,
+             "path: how direct light is found [mis]");
+  c.add_option("--max-depth", o.integrator_settings.max_depth,
+               "path: scattering events of a path at most [100]")
       ->check(CLI::Range(0, 1 << 20).description(""));
   c.add_option("--ao-distance", o.integrator_settings.occlusion_distance,
                "ao: metres within which an occluder counts; 0: any distance [0]")
@@ -276,13 +293,17 @@ Command add_render_command(CLI::App& app) {
   add_choice(c, "--sampler", o.settings.sampler, kSamplers, "Random sequence [sobol]");
   add_choice(c, "--filter", o.settings.filter, kFilters, "Reconstruction filter [blackman-harris]");
   o.layers = {"variance"};
-  c.add_option("--aov", o.layers, fmt::format("Layers of the EXR [variance]: {}, none", fmt::join(kLayerNames, ", ")))
+  c.add_option("--aov", o.layers,
+               fmt::format("Layers of the EXR [variance]: {}, none", fmt::join(kLayerNames, ", ")))
       ->delimiter(',')
       ->type_name("LIST");
-  c.add_option("--threads", o.threads, "Threads; all cores by default")->check(CLI::Range(1, 4096).description(""));
+  c.add_option("--threads", o.threads, "Threads; all cores by default")
+      ->check(CLI::Range(1, 4096).description(""));
   c.add_option("--seed", o.settings.seed, "Seed of the random sequence [0]");
   c.add_option("--stats", o.stats, "JSON to write what the render cost to")->type_name("FILE.json");
-  c.add_option("--checkpoint", o.checkpoint, "File to keep the render's state in, once a minute and at the end")->type_name("FILE");
+  c.add_option("--checkpoint", o.checkpoint,
+               "File to keep the render's state in, once a minute and at the end")
+      ->type_name("FILE");
   c.add_option("--resume", o.resume, "Checkpoint to go on from")->type_name("FILE");
   c.add_flag("--quiet", o.quiet, "No progress and no notes");
   return [options] { return render(*options); };

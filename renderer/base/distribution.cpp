@@ -38,7 +38,8 @@ Distribution2D::Distribution2D(int nx, int ny, const std::function<float(int, in
 }
 
 float Distribution2D::pdf(const Vec2f& p) const {
-  const int x = std::clamp(int(p.x * float(nx_)), 0, nx_ - 1), y = std::clamp(int(p.y * float(ny_)), 0, ny_ - 1);
+  const int x = std::clamp(int(p.x * float(nx_)), 0, nx_ - 1),
+            y = std::clamp(int(p.y * float(ny_)), 0, ny_ - 1);
   return rows_.probability(y) * columns_[y].probability(x) * float(nx_) * float(ny_);
 }
 

@@ -2,52 +2,51 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "renderer/base/error.h"
 
 namespace parian {
+namespace fs = std::filesystem;
 
 std::vector<char> read_file(const std::string& path) {
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code)) throw InputError(path, "", "expected a file, found a folder");
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) throw InputError(path, "", "cannot be read: no such file, or no permission");
-  std::vector<char> bytes(std::size_t(std::max<std::streamoff>(0, file.tellg())));
-  file.seekg(0);
-  if (!file.read(bytes.data(), std::streamsize(bytes.size()))) throw InputError(path, "", "cannot be read");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError(path, "", "no such file");
+  if (!fs::is_regular_file(status)) throw InputError(path, "", "expected a file, found a folder or device");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!file || error) throw InputError(path, "", fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::vector<char> bytes(size);
+  if (!file.read(bytes.data(), std::streamsize(size)))
+    throw InputError(path, "", "cannot be read to its end");
   return bytes;
 }
 
-void write_whole(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const std::filesystem::path target(path);
-  // The extension stays last: image writers choose the format by it.
-  std::filesystem::path temporary = target;
-  temporary.replace_filename(fmt::format(".{}.{}.tmp{}", target.stem().string(), getpid(), target.extension().string()));
-  std::error_code code;
-  try {
-    write(temporary.string());
-  } catch (...) {
-    std::filesystem::remove(temporary, code);
-    throw;
+void write_file(const std::string& path, std::string_view bytes) {
+  static std::atomic<int> serial{0};
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw InputError(path, "", "cannot be written: it is not a file");
+  const std::string temporary = fmt::format("{}.{}-{}.tmp", path, ::getpid(), serial++);
+  errno = 0;
+  std::ofstream file(temporary, std::ios::binary);
+  file.write(bytes.data(), std::streamsize(bytes.size()));
+  file.close();
+  std::string reason = file ? "" : std::strerror(errno);
+  if (reason.empty()) {
+    fs::rename(temporary, path, error);
+    if (error) reason = error.message();
   }
-  std::filesystem::rename(temporary, target, code);
-  if (code) {
-    const std::string reason = code.message();
-    std::filesystem::remove(temporary, code);
+  if (!reason.empty()) {
+    fs::remove(temporary, error);
     throw InputError(path, "", fmt::format("cannot be written: {}", reason));
   }
-}
-
-void write_file(const std::string& path, std::string_view bytes) {
-  write_whole(path, [&](const std::string& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), std::streamsize(bytes.size()));
-    file.close();
-    if (!file) throw InputError(path, "", "cannot be written");
-  });
 }
 
 }  // namespace parian

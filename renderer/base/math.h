@@ -43,7 +43,9 @@ inline float max_component(const Vec3f& v) { return std::max(v.x, std::max(v.y, 
 inline Vec3f normalize(const Vec3f& v) { return v * (1 / std::sqrt(v.dot(v))); }
 /// Rec.709 luminance of a linear colour.
 inline float luminance(const Rgb& c) { return 0.212639f * c.x + 0.715169f * c.y + 0.072192f * c.z; }
-inline bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const Vec3f& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 inline bool is_black(const Rgb& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 /// An orthonormal basis; `to_local` and `to_world` map directions, z being the normal.

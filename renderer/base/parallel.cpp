@@ -27,8 +27,8 @@ int hardware_threads() { return tbb::info::default_concurrency(); }
 
 void set_thread_count(int threads) {
   limit().control.reset();
-  limit().control =
-      std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+  limit().control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                          std::size_t(threads));
   limit().threads = threads;
 }
 

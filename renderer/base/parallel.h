@@ -1,4 +1,5 @@
-/// Parallel loops. The only header through which the rest of Parian uses threads; oneTBB stays in parallel.cpp.
+/// Parallel loops. The only header through which the rest of Parian uses threads; oneTBB stays in
+/// parallel.cpp.
 #pragma once
 
 #include <cstddef>

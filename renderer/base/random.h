@@ -1,5 +1,6 @@
-/// The random sequence: for each pixel a hash-based Owen-scrambled Sobol sequence, or independent numbers to compare
-/// with. A number depends on (seed, pixel, sample, dimension) only, so neither threads nor tiles nor a resume change it.
+/// The random sequence: for each pixel a hash-based Owen-scrambled Sobol sequence, or independent numbers to
+/// compare with. A number depends on (seed, pixel, sample, dimension) only, so neither threads nor tiles nor
+/// a resume change it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@ namespace parian {
 /// Uniform in [0, 1): the top 24 bits, since u32 * 2^-32 rounds up to 1.
 inline float to_unit_float(std::uint32_t x) { return float(x >> 8) * 0x1p-24f; }
 
-/// A permutation of 32-bit integers whose output bits each depend on all input bits (Chris Wellons, "lowbias32").
+/// A permutation of 32-bit integers whose output bits each depend on all input bits (Chris Wellons,
+/// "lowbias32").
 inline std::uint32_t hash32(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -34,8 +36,8 @@ inline std::uint64_t reverse_bits64(std::uint64_t x) {
   return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
 }
 
-/// Owen's nested uniform scramble of a bit-reversed integer: bit i flips by a hash of the bits below it (Laine and
-/// Karras 2011, with the constants of Nathan Vegdahl, "Building a Better LK Hash", 2021).
+/// Owen's nested uniform scramble of a bit-reversed integer: bit i flips by a hash of the bits below it
+/// (Laine and Karras 2011, with the constants of Nathan Vegdahl, "Building a Better LK Hash", 2021).
 inline std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -46,8 +48,8 @@ inline std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
 }
 
 /// The bit-reversed second Sobol coordinate of `index`: the polynomial over GF(2) with the bits of index as
-/// coefficients, x replaced by x + 1, which is Pascal's triangle modulo 2 (Ahmed 2024, An Implementation Algorithm of
-/// 2D Sobol Sequence Fast, Elegant, and Compact).
+/// coefficients, x replaced by x + 1, which is Pascal's triangle modulo 2 (Ahmed 2024, An Implementation
+/// Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact).
 inline std::uint32_t sobol1_reversed(std::uint32_t index) {
   index ^= index >> 16;
   index ^= (index & 0xff00ff00u) >> 8;
@@ -58,9 +60,10 @@ inline std::uint32_t sobol1_reversed(std::uint32_t index) {
 
 enum class SamplerKind : std::uint8_t { sobol, independent };
 
-/// The numbers of one camera path, drawn in a fixed order. Each call is a new dimension or pair of dimensions: the
-/// (0,2)-sequence of the first two Sobol dimensions with its own order and scramble (Burley 2020, Practical Hash-based
-/// Owen Scrambling), so 2^k samples of a pixel stratify every pair in all elementary intervals.
+/// The numbers of one camera path, drawn in a fixed order. Each call is a new dimension or pair of
+/// dimensions: the (0,2)-sequence of the first two Sobol dimensions with its own order and scramble (Burley
+/// 2020, Practical Hash-based Owen Scrambling), so 2^k samples of a pixel stratify every pair in all
+/// elementary intervals.
 class Sampler {
  public:
   Sampler(SamplerKind kind, std::uint32_t seed, int x, int y, std::uint32_t sample)

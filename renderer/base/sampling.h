@@ -5,8 +5,8 @@
 
 namespace parian {
 
-/// (cos, sin) of 2 pi u for u in [0, 1], to 2e-7: Taylor polynomials on [-pi/4, pi/4] around the nearest quarter turn.
-/// A third of the cost of the library's, whose range reduction is for any argument.
+/// (cos, sin) of 2 pi u for u in [0, 1], to 2e-7: Taylor polynomials on [-pi/4, pi/4] around the nearest
+/// quarter turn. A third of the cost of the library's, whose range reduction is for any argument.
 inline Vec2f unit_circle(float u) {
   const int quarter = int(4 * u + 0.5f);
   const float x = (u - 0.25f * float(quarter)) * (2 * kPi), x2 = x * x;
@@ -32,14 +32,15 @@ inline Vec3f sample_sphere(const Vec2f& u) {
   return {p.x, p.y, z};
 }
 
-/// Barycentric weights (b1, b2) of a uniform point of a triangle (Heitz 2019, A Low-Distortion Map Between Triangle
-/// and Square).
+/// Barycentric weights (b1, b2) of a uniform point of a triangle (Heitz 2019, A Low-Distortion Map Between
+/// Triangle and Square).
 inline Vec2f sample_triangle(const Vec2f& u) {
   return u.y > u.x ? Vec2f(u.x * 0.5f, u.y - u.x * 0.5f) : Vec2f(u.x - u.y * 0.5f, u.y * 0.5f);
 }
 
-/// Weight of a sample drawn with density a where another strategy has density b: the power heuristic with exponent 2
-/// (Veach 1997, 9.2.4), in the form that neither overflows nor underflows. Both in the same measure; a > 0.
+/// Weight of a sample drawn with density a where another strategy has density b: the power heuristic with
+/// exponent 2 (Veach 1997, 9.2.4), in the form that neither overflows nor underflows. Both in the same
+/// measure; a > 0.
 inline float power_heuristic(float a, float b) {
   const float ratio = b / a;
   return 1 / (1 + ratio * ratio);

@@ -14,7 +14,9 @@ double variance_of_mean(double sum, double squares, std::uint32_t n) {
 
 }  // namespace
 
-Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(height), layers_(layers) { clear(); }
+Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(height), layers_(layers) {
+  clear();
+}
 
 void Film::clear() {
   const std::lock_guard lock(mutex_);
@@ -29,7 +31,8 @@ FilmTile Film::checkout(const Tile& area) const {
     const std::size_t row = std::size_t(y) * width_;
     tile.pixels.insert(tile.pixels.end(), pixels_.begin() + row + area.x0, pixels_.begin() + row + area.x1);
     if (layers_.features)
-      tile.features.insert(tile.features.end(), features_.begin() + row + area.x0, features_.begin() + row + area.x1);
+      tile.features.insert(tile.features.end(), features_.begin() + row + area.x0,
+                           features_.begin() + row + area.x1);
   }
   return tile;
 }
@@ -38,7 +41,8 @@ void Film::merge(const FilmTile& tile) {
   const std::lock_guard lock(mutex_);
   const int width = tile.area.x1 - tile.area.x0;
   for (int y = tile.area.y0; y < tile.area.y1; ++y) {
-    const std::size_t from = std::size_t(y - tile.area.y0) * width, to = std::size_t(y) * width_ + tile.area.x0;
+    const std::size_t from = std::size_t(y - tile.area.y0) * width,
+                      to = std::size_t(y) * width_ + tile.area.x0;
     std::copy_n(tile.pixels.begin() + from, width, pixels_.begin() + to);
     if (layers_.features) std::copy_n(tile.features.begin() + from, width, features_.begin() + to);
   }
@@ -99,7 +103,8 @@ std::vector<char> Film::save() const {
   const std::size_t pixel_bytes = pixels_.size() * sizeof(PixelSums);
   std::vector<char> state(pixel_bytes + features_.size() * sizeof(FeatureSums));
   std::memcpy(state.data(), pixels_.data(), pixel_bytes);
-  if (!features_.empty()) std::memcpy(state.data() + pixel_bytes, features_.data(), state.size() - pixel_bytes);
+  if (!features_.empty())
+    std::memcpy(state.data() + pixel_bytes, features_.data(), state.size() - pixel_bytes);
   return state;
 }
 
@@ -109,7 +114,8 @@ void Film::restore(const std::vector<char>& state) {
   if (state.size() != pixel_bytes + features_.size() * sizeof(FeatureSums))
     throw std::runtime_error("the saved film has another size or other layers");
   std::memcpy(pixels_.data(), state.data(), pixel_bytes);
-  if (!features_.empty()) std::memcpy(features_.data(), state.data() + pixel_bytes, state.size() - pixel_bytes);
+  if (!features_.empty())
+    std::memcpy(features_.data(), state.data() + pixel_bytes, state.size() - pixel_bytes);
 }
 
 }  // namespace parian

@@ -1,5 +1,5 @@
-/// The film: sums of samples for each pixel, kept so that neither threads nor tiles nor a resume change a bit, and
-/// their resolution into pictures.
+/// The film: sums of samples for each pixel, kept so that neither threads nor tiles nor a resume change a
+/// bit, and their resolution into pictures.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
-/// The running sums of one pixel. Samples are added one by one in the order of their numbers, so that the sum does not
-/// depend on how passes were cut.
+/// The running sums of one pixel. Samples are added one by one in the order of their numbers, so that the sum
+/// does not depend on how passes were cut.
 struct PixelSums {
   std::uint32_t samples = 0;
   std::uint32_t object = 0;  // of the first sample: an id has no mean
@@ -46,9 +46,9 @@ struct FeatureSums {
 };
 
 struct FilmLayers {
-  bool variance = true;       // variance of the mean per channel, from the pixel's own samples
+  bool variance = true;  // variance of the mean per channel, from the pixel's own samples
   bool sample_count = false;
-  bool features = false;      // albedo, normal, depth, object id
+  bool features = false;  // albedo, normal, depth, object id
   bool operator==(const FilmLayers&) const = default;
 };
 
@@ -77,10 +77,12 @@ class Film {
   Picture resolve() const;
   /// Smallest number of samples of any pixel.
   std::uint32_t min_samples() const;
-  /// Root mean square over pixels and channels of the standard error, over the mean: the noise of the picture.
+  /// Root mean square over pixels and channels of the standard error, over the mean: the noise of the
+  /// picture.
   double relative_noise() const;
 
-  /// The state as bytes and back, for checkpoints. restore() throws std::runtime_error where they do not fit the film.
+  /// The state as bytes and back, for checkpoints. restore() throws std::runtime_error where they do not fit
+  /// the film.
   std::vector<char> save() const;
   void restore(const std::vector<char>& state);
 

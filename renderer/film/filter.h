@@ -1,5 +1,6 @@
-/// Reconstruction filters, applied by sampling: a camera ray is drawn from the filter around its pixel and counts 1, so
-/// a pixel depends on its own samples alone and needs no lock (Ernst et al. 2006, Filter Importance Sampling).
+/// Reconstruction filters, applied by sampling: a camera ray is drawn from the filter around its pixel and
+/// counts 1, so a pixel depends on its own samples alone and needs no lock (Ernst et al. 2006, Filter
+/// Importance Sampling).
 #pragma once
 
 #include <array>

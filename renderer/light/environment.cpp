@@ -10,16 +10,17 @@ Affine to_affine(const Quatf& q) {
   return {q.rotateVector({1, 0, 0}), q.rotateVector({0, 1, 0}), q.rotateVector({0, 0, 1}), {0, 0, 0}};
 }
 
-/// Mean luminance of the bilinear lookup over the cell of texel (x, y): its neighbours count 1/8 along each axis.
-/// The sampling density then covers all that a bright texel spreads to.
+/// Mean luminance of the bilinear lookup over the cell of texel (x, y): its neighbours count 1/8 along each
+/// axis. The sampling density then covers all that a bright texel spreads to.
 float cell_luminance(const Image& image, int x, int y) {
   const float weight[3] = {0.125f, 0.75f, 0.125f};
   float sum = 0;
   for (int j = -1; j <= 1; ++j)
     for (int i = -1; i <= 1; ++i) {
-      const Vec4f c = texel(image, (x + i + image.width) % image.width, std::clamp(y + j, 0, image.height - 1),
-                            ColorSpace::srgb);
-      sum += weight[i + 1] * weight[j + 1] * luminance({std::max(c.x, 0.0f), std::max(c.y, 0.0f), std::max(c.z, 0.0f)});
+      const Vec4f c = texel(image, (x + i + image.width) % image.width,
+                            std::clamp(y + j, 0, image.height - 1), ColorSpace::srgb);
+      sum += weight[i + 1] * weight[j + 1] *
+             luminance({std::max(c.x, 0.0f), std::max(c.y, 0.0f), std::max(c.z, 0.0f)});
     }
   return sum;
 }

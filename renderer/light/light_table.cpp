@@ -5,7 +5,8 @@
 namespace parian {
 namespace {
 
-// A float in [0, 1) has 24 bits. Up to this many lights one number serves for the choice and, rescaled, for the point.
+// A float in [0, 1) has 24 bits. Up to this many lights one number serves for the choice and, rescaled, for
+// the point.
 constexpr int kMaxLightsForOneNumber = 64;
 
 LightSample area_sample(const Vec3f& p, const Vec3f& point, const Vec3f& normal, float offset, float area) {
@@ -24,7 +25,8 @@ bool usable(float pdf) { return pdf > 0 && pdf < kInfinity; }
 
 }  // namespace
 
-LightTable::LightTable(const Scene& scene, const World& world) : scene_(&scene), world_(&world), environment_(scene) {
+LightTable::LightTable(const Scene& scene, const World& world)
+    : scene_(&scene), world_(&world), environment_(scene) {
   bool emissive = false;
   for (const Part& part : world.parts) emissive |= part.emissive;
   if (emissive) {
@@ -44,7 +46,8 @@ LightTable::LightTable(const Scene& scene, const World& world) : scene_(&scene),
   for (const EmissiveTriangle& t : triangles_) powers.push_back(power(t));
   for (const AreaLight& light : world.area_lights) powers.push_back(power(light));
   for (const PunctualLight& light : world.punctual_lights) powers.push_back(power(light, radius));
-  if (!environment_.black()) powers.push_back(environment_.mean_luminance() * 4 * kPi * kPi * radius * radius);
+  if (!environment_.black())
+    powers.push_back(environment_.mean_luminance() * 4 * kPi * kPi * radius * radius);
   distribution_ = Distribution1D(powers);
 }
 
@@ -71,12 +74,15 @@ float LightTable::power(const EmissiveTriangle& e) const {
   const Material& material = *e.part->material;
   Rgb mean = material.emission;
   if (material.emission_texture) {
-    // Sixteen points estimate the texture's mean; a tenth of the factor keeps what they miss from being starved.
+    // Sixteen points estimate the texture's mean; a tenth of the factor keeps what they miss from being
+    // starved.
     const Triangle& t = e.part->primitive->triangles[e.triangle];
     mean *= 0.1f;
     for (int i = 0; i < 16; ++i) {
-      const Vec2f b = sample_triangle({(float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i)))});
-      mean += eval_emission(*scene_, material, interpolate_uvs(*e.part->primitive, t, b.x, b.y)) * (0.9f / 16);
+      const Vec2f b =
+          sample_triangle({(float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i)))});
+      mean +=
+          eval_emission(*scene_, material, interpolate_uvs(*e.part->primitive, t, b.x, b.y)) * (0.9f / 16);
     }
   }
   return luminance(mean) * e.area * kPi * (material.double_sided ? 2 : 1);
@@ -134,16 +140,19 @@ std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e
   s.radiance = material.emission;
   if (material.emission_texture) {
     const Primitive& primitive = *e.part->primitive;
-    s.radiance = eval_emission(*scene_, material, interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
+    s.radiance = eval_emission(*scene_, material,
+                               interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
   }
   return s;
 }
 
-std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const {
+std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const Vec3f& p,
+                                                   const Vec2f& u) const {
   const Vec2f q = light.disk ? sample_disk(u) : Vec2f(2 * u.x - 1, 2 * u.y - 1);
   const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
-  LightSample s = area_sample(p, light.center + light.half_x * q.x + light.half_y * q.y, light.normal,
-                              plane_offset(max_component(abs(light.center) + abs(light.half_x) + abs(light.half_y))), area);
+  LightSample s = area_sample(
+      p, light.center + light.half_x * q.x + light.half_y * q.y, light.normal,
+      plane_offset(max_component(abs(light.center) + abs(light.half_x) + abs(light.half_y))), area);
   if (!usable(s.pdf) || s.wi.dot(light.normal) >= 0) return std::nullopt;
   s.radiance = light.radiance;
   return s;

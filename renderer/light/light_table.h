@@ -1,5 +1,5 @@
-/// Every light of the scene in one table: emissive triangles, area lights, punctual lights, the environment. One is
-/// chosen with a probability proportional to its power and then sampled.
+/// Every light of the scene in one table: emissive triangles, area lights, punctual lights, the environment.
+/// One is chosen with a probability proportional to its power and then sampled.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,11 @@ namespace parian {
 
 /// A direction to a light from the point that was asked for.
 struct LightSample {
-  Vec3f wi;          // unit
-  Rgb radiance;      // arriving along -wi if nothing is between; for a delta light irradiance on a surface across wi
-  float pdf;         // per solid angle, choice of the light included; for a delta light the probability of the choice
+  Vec3f wi;      // unit
+  Rgb radiance;  // arriving along -wi if nothing is between; for a delta light irradiance on a surface across
+                 // wi
+  float
+      pdf;  // per solid angle, choice of the light included; for a delta light the probability of the choice
   bool delta;        // no other strategy can find it
   bool at_infinity;  // directional light or environment: the shadow ray has no end
   Vec3f target;      // else where the shadow ray ends, clear of the light's own surface
@@ -34,8 +36,8 @@ class LightTable {
   /// Samples a light as seen from p. Nothing where the chosen light does not reach p.
   std::optional<LightSample> sample(const Vec3f& p, Sampler& sampler) const;
 
-  /// Density per solid angle with which sample() from the origin of a ray of unit direction d finds the point of an
-  /// emissive triangle that the ray hit, at distance hit.t; `cosine` is |d . ng| there.
+  /// Density per solid angle with which sample() from the origin of a ray of unit direction d finds the point
+  /// of an emissive triangle that the ray hit, at distance hit.t; `cosine` is |d . ng| there.
   float pdf_triangle(const Hit& hit, float cosine) const;
   /// The same for area light `index`.
   float pdf_area_light(const Hit& hit, float cosine) const;
@@ -56,7 +58,8 @@ class LightTable {
   float power(const EmissiveTriangle& emitter) const;
   float power(const AreaLight& light) const;
   float power(const PunctualLight& light, float scene_radius) const;
-  std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, const Vec3f& p, const Vec2f& u) const;
+  std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, const Vec3f& p,
+                                             const Vec2f& u) const;
   std::optional<LightSample> sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const;
   std::optional<LightSample> sample_punctual(const PunctualLight& light, const Vec3f& p) const;
   float choice(int light) const { return count_ == 1 ? 1 : distribution_.probability(light); }

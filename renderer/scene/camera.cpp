@@ -9,7 +9,8 @@ CameraView make_camera_view(const Scene& scene, const CameraPlacement& placement
   CameraView view;
   view.to_world = placement.to_world;
   view.projection = camera.projection;
-  view.half_height = camera.projection == Projection::perspective ? std::tan(0.5f * camera.yfov) : camera.ymag;
+  view.half_height =
+      camera.projection == Projection::perspective ? std::tan(0.5f * camera.yfov) : camera.ymag;
   view.half_width = view.half_height * float(width) / float(height);
   if (camera.lens && camera.projection == Projection::perspective) {
     view.lens_radius = camera.lens->focal_length / (2 * camera.lens->f_stop);

@@ -1,6 +1,6 @@
-/// The scene as plain data: structs and indices, no pointers between them. A Scene can be copied (cheaply: arrays
-/// are shared), compared, edited and written back. It follows glTF 2.0: right-handed, y up, metres, radians,
-/// linear Rec.709 colours, cameras and lights looking along -z.
+/// The scene as plain data: structs and indices, no pointers between them. A Scene can be copied (cheaply:
+/// arrays are shared), compared, edited and written back. It follows glTF 2.0: right-handed, y up, metres,
+/// radians, linear Rec.709 colours, cameras and lights looking along -z.
 #pragma once
 
 #include <array>
@@ -82,8 +82,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// element per vertex. Counter-clockwise is the front.
 struct Primitive {
   SharedArray<Vec3f> positions;
-  SharedArray<Vec3f> normals;   // unit; empty: flat, from the triangle
-  SharedArray<Vec4f> tangents;  // xyz unit, w the sign of the bitangent; empty: from the uv set of the normal map
+  SharedArray<Vec3f> normals;  // unit; empty: flat, from the triangle
+  SharedArray<Vec4f>
+      tangents;  // xyz unit, w the sign of the bitangent; empty: from the uv set of the normal map
   std::array<SharedArray<Vec2f>, 2> uvs;
   SharedArray<Vec4f> colors;  // linear, multiplies base colour and alpha
   SharedArray<Triangle> triangles;
@@ -110,11 +111,12 @@ enum class Projection : std::uint8_t { perspective, orthographic };
 struct Camera {
   std::string name;
   Projection projection = Projection::perspective;
-  float yfov = 0.8f;               // perspective: full vertical angle
-  float aspect = 0;                // perspective: width / height; 0: that of the image
-  float xmag = 1, ymag = 1;        // orthographic: half width and half height
-  float znear = 0.01f, zfar = 0;   // kept for other viewers: a ray tracer has no depth buffer and clips nothing
-  std::optional<Lens> lens;        // absent: a pinhole
+  float yfov = 0.8f;         // perspective: full vertical angle
+  float aspect = 0;          // perspective: width / height; 0: that of the image
+  float xmag = 1, ymag = 1;  // orthographic: half width and half height
+  float znear = 0.01f,
+        zfar = 0;            // kept for other viewers: a ray tracer has no depth buffer and clips nothing
+  std::optional<Lens> lens;  // absent: a pinhole
   bool operator==(const Camera&) const = default;
 };
 
@@ -152,7 +154,8 @@ struct Node {
 };
 
 /// What a ray that hits nothing sees: radiance, times an equirectangular image where there is one.
-/// Image u grows with the angle from -x over -z, +x, +z (EXT_lights_environment: the centre is +x), top row is +y.
+/// Image u grows with the angle from -x over -z, +x, +z (EXT_lights_environment: the centre is +x), top row
+/// is +y.
 struct Environment {
   Rgb radiance{0, 0, 0};
   int image = kNone;
@@ -176,9 +179,9 @@ struct Scene {
 /// Adds the content of `other` to `scene`, its indices shifted. An environment replaces one that is black.
 void append(Scene& scene, const Scene& other);
 
-/// Checks what the renderer relies on: every index in range (a primitive's material included), the node graph a
-/// forest, arrays of matching length, numbers finite and in range. Throws InputError naming `file` and the place,
-/// as a path like /meshes/2/primitives/0/triangles/17.
+/// Checks what the renderer relies on: every index in range (a primitive's material included), the node graph
+/// a forest, arrays of matching length, numbers finite and in range. Throws InputError naming `file` and the
+/// place, as a path like /meshes/2/primitives/0/triangles/17.
 void validate(const Scene& scene, const std::string& file);
 
 }  // namespace parian

@@ -27,8 +27,8 @@ Vec3f uv_tangent(const Primitive& primitive, const Triangle& t, int set, const V
 }
 
 /// The normal of the normal map (glTF 2.0, 3.9.3), in world space; n where the surface has no tangent there.
-Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placement, const Hit& hit, const Vec3f& n,
-                 const Vec3f& e1, const Vec3f& e2) {
+Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placement, const Hit& hit,
+                 const Vec3f& n, const Vec3f& e1, const Vec3f& e2) {
   const Material& material = *s.part->material;
   const Primitive& primitive = *s.part->primitive;
   const Triangle& t = primitive.triangles[hit.triangle];
@@ -41,9 +41,11 @@ Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placemen
   } else {
     const int set = material.normal_texture.uv_set;
     tangent = uv_tangent(primitive, t, set, e1, e2);
-    // v grows downwards in the image, so the bitangent is against dp/dv: its side follows from the map's orientation.
+    // v grows downwards in the image, so the bitangent is against dp/dv: its side follows from the map's
+    // orientation.
     const SharedArray<Vec2f>& uvs = primitive.uvs[set];
-    const Vec2f d1 = uvs.empty() ? Vec2f(0) : uvs[t[1]] - uvs[t[0]], d2 = uvs.empty() ? Vec2f(0) : uvs[t[2]] - uvs[t[0]];
+    const Vec2f d1 = uvs.empty() ? Vec2f(0) : uvs[t[1]] - uvs[t[0]],
+                d2 = uvs.empty() ? Vec2f(0) : uvs[t[2]] - uvs[t[0]];
     const Vec3f bitangent = (e1 * d2.x - e2 * d1.x) * (d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f);
     sign = n.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f;
   }
@@ -53,7 +55,8 @@ Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placemen
   tangent /= length;
   const Vec3f bitangent = n.cross(tangent) * sign;
   const Vec4f texel = eval_texture(scene, material.normal_texture, s.uvs, ColorSpace::linear);
-  const Vec3f m((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale, 2 * texel.z - 1);
+  const Vec3f m((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale,
+                2 * texel.z - 1);
   const Vec3f mapped = tangent * m.x + bitangent * m.y + n * m.z;
   return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
 }
@@ -65,7 +68,8 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
   const Part& part = world.parts[placement.first_part + hit.primitive];
   const Primitive& primitive = *part.primitive;
   const Triangle& t = primitive.triangles[hit.triangle];
-  const Vec3f &v0 = primitive.positions[t[0]], &v1 = primitive.positions[t[1]], &v2 = primitive.positions[t[2]];
+  const Vec3f &v0 = primitive.positions[t[0]], &v1 = primitive.positions[t[1]],
+              &v2 = primitive.positions[t[2]];
 
   Surface s;
   s.part = &part;
@@ -121,7 +125,9 @@ float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle
   float alpha = material.alpha;
   if (!primitive.colors.empty()) alpha *= interpolate(primitive.colors, t, u, v).w;
   if (material.base_color_texture)
-    alpha *= eval_texture(scene, material.base_color_texture, interpolate_uvs(primitive, t, u, v), ColorSpace::srgb).w;
+    alpha *= eval_texture(scene, material.base_color_texture, interpolate_uvs(primitive, t, u, v),
+                          ColorSpace::srgb)
+                 .w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
   return alpha;
 }

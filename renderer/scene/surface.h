@@ -1,4 +1,5 @@
-/// From a hit to what shading needs: position with its error bound, normals, shading frame, texture coordinates.
+/// From a hit to what shading needs: position with its error bound, normals, shading frame, texture
+/// coordinates.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace parian {
 
-/// What a ray hit: triangle `triangle` of primitive `primitive` of placement `placement` at barycentric weights
-/// (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`.
+/// What a ray hit: triangle `triangle` of primitive `primitive` of placement `placement` at barycentric
+/// weights (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`.
 struct Hit {
   static constexpr std::uint32_t kAreaLightHit = 0xffffffffu;
   float t, u, v;
@@ -17,12 +18,12 @@ struct Hit {
 };
 
 struct Surface {
-  Vec3f p;             // world space
-  float offset;        // distance along ng that clears every rounding error in p and in an intersection near it
-  Vec3f ng;            // unit geometric normal, on the front side
-  Vec3f wo;            // unit, towards where the ray came from
-  bool front;          // wo is on the side of ng
-  Frame frame;         // shading frame; frame.z is on the side of wo
+  Vec3f p;       // world space
+  float offset;  // distance along ng that clears every rounding error in p and in an intersection near it
+  Vec3f ng;      // unit geometric normal, on the front side
+  Vec3f wo;      // unit, towards where the ray came from
+  bool front;    // wo is on the side of ng
+  Frame frame;   // shading frame; frame.z is on the side of wo
   const Part* part;
   std::array<Vec2f, 2> uvs;  // only where part->needs_uv
   Vec4f color;               // vertex colour, white where there is none
@@ -36,9 +37,10 @@ inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
   return s.p + s.ng * (w.dot(s.ng) < 0 ? -s.offset : s.offset);
 }
 
-/// How far along its normal a point of a triangle or parallelogram must move so that a ray from there cannot hit the
-/// same plane again: bounds the rounding of interpolating it, of Embree's distance T = (v0 - o) . n, and of the new
-/// origin, each a few roundings of numbers up to `extent`, the largest coordinate that went in.
+/// How far along its normal a point of a triangle or parallelogram must move so that a ray from there cannot
+/// hit the same plane again: bounds the rounding of interpolating it, of Embree's distance T = (v0 - o) . n,
+/// and of the new origin, each a few roundings of numbers up to `extent`, the largest coordinate that went
+/// in.
 inline float plane_offset(float extent) { return error_gamma(16) * extent; }
 
 /// Emitted radiance of a material at uvs, on a side from which it emits.

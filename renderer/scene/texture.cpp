@@ -15,8 +15,8 @@ struct SrgbTable {
   }
 };
 
-/// Calls use(color, alpha) with the functions that decode colour and alpha element i of the image, so that the choice of
-/// the type is made once for all texels of a lookup.
+/// Calls use(color, alpha) with the functions that decode colour and alpha element i of the image, so that
+/// the choice of the type is made once for all texels of a lookup.
 template <class Use>
 Vec4f with_decoder(const Image& image, ColorSpace space, const Use& use) {
   static const SrgbTable table;
@@ -80,7 +80,8 @@ float texel_coordinate(float u, int size) { return std::clamp(u * float(size), -
 }  // namespace
 
 Vec4f texel(const Image& image, int x, int y, ColorSpace space) {
-  return with_decoder(image, space, [&](const auto& color, const auto& alpha) { return decode(image, x, y, color, alpha); });
+  return with_decoder(
+      image, space, [&](const auto& color, const auto& alpha) { return decode(image, x, y, color, alpha); });
 }
 
 Vec4f eval_texture(const Scene& scene, const Texture& texture, const Vec2f& uv, ColorSpace space) {
@@ -88,18 +89,21 @@ Vec4f eval_texture(const Scene& scene, const Texture& texture, const Vec2f& uv, 
   float x = texel_coordinate(uv.x, image.width), y = texel_coordinate(uv.y, image.height);
   const auto column = [&](int i) { return wrap_index(i, image.width, texture.wrap_s); };
   const auto row = [&](int j) { return wrap_index(j, image.height, texture.wrap_t); };
-  if (texture.filter == Filter::nearest) return texel(image, column(int(std::floor(x))), row(int(std::floor(y))), space);
+  if (texture.filter == Filter::nearest)
+    return texel(image, column(int(std::floor(x))), row(int(std::floor(y))), space);
   x -= 0.5f;
   y -= 0.5f;
   const float left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
   const int x0 = column(int(left)), x1 = column(int(left) + 1), y0 = row(int(top)), y1 = row(int(top) + 1);
   return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
     const auto at = [&](int i, int j) { return decode(image, i, j, color, alpha); };
-    return (at(x0, y0) * (1 - fx) + at(x1, y0) * fx) * (1 - fy) + (at(x0, y1) * (1 - fx) + at(x1, y1) * fx) * fy;
+    return (at(x0, y0) * (1 - fx) + at(x1, y0) * fx) * (1 - fy) +
+           (at(x0, y1) * (1 - fx) + at(x1, y1) * fx) * fy;
   });
 }
 
-Vec4f eval_texture(const Scene& scene, const TextureRef& ref, const std::array<Vec2f, 2>& uvs, ColorSpace space) {
+Vec4f eval_texture(const Scene& scene, const TextureRef& ref, const std::array<Vec2f, 2>& uvs,
+                   ColorSpace space) {
   const Vec2f& uv = uvs[ref.uv_set];
   const auto& m = ref.transform;
   return eval_texture(scene, scene.textures[ref.texture],

@@ -57,20 +57,27 @@ AreaLight make_area_light(const Light& light, const Affine& to_world, int node) 
   const Affine axes = orthonormal(to_world);
   const float scale = std::max({to_world.x.length(), to_world.y.length(), to_world.z.length()});
   const bool disk = light.kind == LightKind::disk;
-  const float half_x = 0.5f * scale * light.width, half_y = 0.5f * scale * (disk ? light.width : light.height);
+  const float half_x = 0.5f * scale * light.width,
+              half_y = 0.5f * scale * (disk ? light.width : light.height);
   return {axes.origin, axes.x * half_x, axes.y * half_y, -axes.z, light.color * light.intensity, disk, node};
 }
 
 PunctualLight make_punctual_light(const Light& light, const Affine& to_world) {
-  return {light.kind,  to_world.origin,           -to_world.z.normalized(),     light.color * light.intensity,
-          light.range, std::cos(light.inner_angle), std::cos(light.outer_angle)};
+  return {light.kind,
+          to_world.origin,
+          -to_world.z.normalized(),
+          light.color * light.intensity,
+          light.range,
+          std::cos(light.inner_angle),
+          std::cos(light.outer_angle)};
 }
 
 /// Calls visit(node index, node to world) for every node that is drawn, parents first.
 template <class Visit>
 void for_each_node(const Scene& scene, const Visit& visit) {
   std::vector<std::pair<int, Mat4d>> open;
-  for (auto root = scene.roots.rbegin(); root != scene.roots.rend(); ++root) open.emplace_back(*root, Mat4d());
+  for (auto root = scene.roots.rbegin(); root != scene.roots.rend(); ++root)
+    open.emplace_back(*root, Mat4d());
   while (!open.empty()) {
     const auto [index, parent] = open.back();
     open.pop_back();
@@ -102,7 +109,8 @@ class WorldBuilder {
   }
 
   World build() && {
-    for_each_node(scene_, [&](int index, const Mat4d& to_world) { add_node(scene_.nodes[index], index, to_world); });
+    for_each_node(scene_,
+                  [&](int index, const Mat4d& to_world) { add_node(scene_.nodes[index], index, to_world); });
     world_.cameras = place_cameras(scene_);
     return std::move(world_);
   }
@@ -111,7 +119,8 @@ class WorldBuilder {
   void add_node(const Node& node, int index, const Mat4d& to_world) {
     if (node.mesh != kNone) {
       if (node.instances.empty()) add_mesh(node.mesh, index, to_world);
-      for (const Transform& instance : node.instances) add_mesh(node.mesh, index, instance.to_matrix() * to_world);
+      for (const Transform& instance : node.instances)
+        add_mesh(node.mesh, index, instance.to_matrix() * to_world);
     }
     if (node.light != kNone) add_light(scene_.lights[node.light], index, to_affine(to_world));
   }
@@ -129,8 +138,9 @@ class WorldBuilder {
       const Box3f& box = world_.parts[first_part_[mesh] + i].bounds;
       if (box.isEmpty()) continue;
       for (int corner = 0; corner < 8; ++corner)
-        world_.bounds.extendBy(to_world.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                               corner & 4 ? box.max.z : box.min.z}));
+        world_.bounds.extendBy(
+            to_world.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                            corner & 4 ? box.max.z : box.min.z}));
     }
     world_.slot_count += std::uint32_t(scene_.meshes[mesh].primitives.size());
   }
@@ -139,7 +149,8 @@ class WorldBuilder {
     if (light.kind == LightKind::rectangle || light.kind == LightKind::disk) {
       const AreaLight area = make_area_light(light, to_world, node);
       for (int corner = 0; corner < 4; ++corner)
-        world_.bounds.extendBy(area.center + area.half_x * (corner & 1 ? 1 : -1) + area.half_y * (corner & 2 ? 1 : -1));
+        world_.bounds.extendBy(area.center + area.half_x * (corner & 1 ? 1 : -1) +
+                               area.half_y * (corner & 2 ? 1 : -1));
       world_.area_lights.push_back(area);
     } else {
       world_.punctual_lights.push_back(make_punctual_light(light, to_world));
@@ -152,7 +163,8 @@ class WorldBuilder {
 };
 
 bool has_light(const Scene& scene, const World& world) {
-  if (!world.area_lights.empty() || !world.punctual_lights.empty() || !is_black(scene.environment.radiance)) return true;
+  if (!world.area_lights.empty() || !world.punctual_lights.empty() || !is_black(scene.environment.radiance))
+    return true;
   for (const Placement& p : world.placements)
     for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i) {
       const Part& part = world.part(std::uint32_t(&p - world.placements.data()), std::uint32_t(i));
@@ -184,7 +196,9 @@ void add_framing_camera(Scene& scene, const Box3f& bounds) {
 
 }  // namespace
 
-World make_world(const Scene& scene, const World* same_meshes) { return WorldBuilder(scene, same_meshes).build(); }
+World make_world(const Scene& scene, const World* same_meshes) {
+  return WorldBuilder(scene, same_meshes).build();
+}
 
 std::vector<CameraPlacement> place_cameras(const Scene& scene) {
   std::vector<CameraPlacement> cameras;

@@ -1,4 +1,5 @@
-/// The scene as the tracer walks it: the node tree flattened into world space, meshes resolved to arrays and flags.
+/// The scene as the tracer walks it: the node tree flattened into world space, meshes resolved to arrays and
+/// flags.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct Part {
   bool needs_color;    // vertex colours are there
   bool needs_tangent;  // there is a normal map
   bool emissive;
-  bool alpha;          // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
-  Box3f bounds;        // in object space
+  bool alpha;    // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
+  Box3f bounds;  // in object space
 };
 
 /// A mesh drawn once.
@@ -28,9 +29,9 @@ struct Placement {
   int node, mesh;
   std::uint32_t first_part;  // World::parts[first_part + primitive]
   std::uint32_t first_slot;  // numbers all primitives of all placements in order
-  // Rounding: what the map to object space and back does to a point, as a multiple of its coordinates, is bounded by
-  // the largest row sum of |M| |M^-1| (Higham, 7.1), and the coordinates by those in object space times `growth`, the
-  // largest row sum of |M|, plus the largest of the origin.
+  // Rounding: what the map to object space and back does to a point, as a multiple of its coordinates, is
+  // bounded by the largest row sum of |M| |M^-1| (Higham, 7.1), and the coordinates by those in object space
+  // times `growth`, the largest row sum of |M|, plus the largest of the origin.
   float condition, growth, reach;
   bool identity;
 
@@ -38,8 +39,9 @@ struct Placement {
   float extent(float object_extent) const { return (1 + condition) * (growth * object_extent + reach); }
 };
 
-/// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and opaque
-/// from the other. The disk is the ellipse inscribed in the rectangle (a circle, its sides being equal).
+/// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and
+/// opaque from the other. The disk is the ellipse inscribed in the rectangle (a circle, its sides being
+/// equal).
 struct AreaLight {
   Vec3f center, half_x, half_y, normal;
   Rgb radiance;
@@ -75,15 +77,15 @@ struct World {
   }
 };
 
-/// The scene must be valid (validate()) and outlive the result, which points into it. `same_meshes`: a world of a scene
-/// with the same meshes, whose bounds then need not be found again.
+/// The scene must be valid (validate()) and outlive the result, which points into it. `same_meshes`: a world
+/// of a scene with the same meshes, whose bounds then need not be found again.
 World make_world(const Scene& scene, const World* same_meshes = nullptr);
 
 /// The cameras alone.
 std::vector<CameraPlacement> place_cameras(const Scene& scene);
 
-/// Gives a scene without camera one that frames what is in it, from slightly above the front, and one without light
-/// a plain white sky of radiance 1. Returns a line for each that it added.
+/// Gives a scene without camera one that frames what is in it, from slightly above the front, and one without
+/// light a plain white sky of radiance 1. Returns a line for each that it added.
 std::vector<std::string> add_missing_camera_and_light(Scene& scene);
 
 }  // namespace parian

@@ -35,8 +35,9 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// One unbiased sample of the radiance arriving along `ray` (unit direction), drawn from `sampler`. Fills `features`
-  /// of the first surface where it is not null, and counts the rays it traces. Called by many threads at once.
+  /// One unbiased sample of the radiance arriving along `ray` (unit direction), drawn from `sampler`. Fills
+  /// `features` of the first surface where it is not null, and counts the rays it traces. Called by many
+  /// threads at once.
   virtual Rgb radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts& counts,
                        Features* features) const = 0;
 };

@@ -11,7 +11,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 bool is_valid(const Rgb& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
 
@@ -88,7 +90,8 @@ void Session::wait() {
 
 Progress Session::progress() const {
   const std::lock_guard lock(stats_mutex_);
-  return {finished_samples_, settings_.spp, running_ ? seconds_since(started_) : stats_.render_seconds, running_};
+  return {finished_samples_, settings_.spp, running_ ? seconds_since(started_) : stats_.render_seconds,
+          running_};
 }
 
 SessionStats Session::stats() const {
@@ -99,10 +102,12 @@ SessionStats Session::stats() const {
   return stats;
 }
 
-bool Session::out_of_time() const { return settings_.seconds > 0 && seconds_since(started_) >= settings_.seconds; }
+bool Session::out_of_time() const {
+  return settings_.seconds > 0 && seconds_since(started_) >= settings_.seconds;
+}
 
-/// Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long enough that
-/// their ends, where threads wait for each other, do not count.
+/// Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long
+/// enough that their ends, where threads wait for each other, do not count.
 void Session::render() {
   const std::uint32_t total = settings_.seconds > 0 ? 0xffffffffu : settings_.spp;
   for (std::uint32_t done = finished_samples_; done < total && !cancel_ && !out_of_time();) {
@@ -170,11 +175,13 @@ void Session::update(std::shared_ptr<const Scene> scene, unsigned changed) {
 }
 
 void Session::retrace(std::shared_ptr<const Scene> scene, unsigned changed) {
-  auto world = std::make_unique<World>(make_world(*scene, changed & kChangedGeometry ? nullptr : world_.get()));
+  auto world =
+      std::make_unique<World>(make_world(*scene, changed & kChangedGeometry ? nullptr : world_.get()));
   // Alpha decides which geometries are filtered, and a scale of zero removes a placement.
   const auto same_structure = [&] {
     return std::ranges::equal(world->parts, world_->parts, {}, &Part::alpha, &Part::alpha) &&
-           std::ranges::equal(world->placements, world_->placements, {}, &Placement::mesh, &Placement::mesh) &&
+           std::ranges::equal(world->placements, world_->placements, {}, &Placement::mesh,
+                              &Placement::mesh) &&
            world->area_lights.size() == world_->area_lights.size();
   };
   if ((changed & kChangedGeometry) || !same_structure()) {

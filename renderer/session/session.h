@@ -1,5 +1,5 @@
-/// The progressive render loop over one scene: start, cancel, wait, look, edit. The command line and the editor are
-/// clients of this and of nothing below.
+/// The progressive render loop over one scene: start, cancel, wait, look, edit. The command line and the
+/// editor are clients of this and of nothing below.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@ namespace parian {
 
 struct RenderSettings {
   int width = 960, height = 540;
-  int camera = 0;           // index into World::cameras
-  std::uint32_t spp = 64;   // samples for each pixel
-  double seconds = 0;       // > 0: stop after this time, however many samples there are
+  int camera = 0;          // index into World::cameras
+  std::uint32_t spp = 64;  // samples for each pixel
+  double seconds = 0;      // > 0: stop after this time, however many samples there are
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
@@ -54,10 +54,12 @@ struct SessionStats {
 class Session {
  public:
   /// Builds everything for a valid scene that has the camera asked for.
-  Session(std::shared_ptr<const Scene> scene, const RenderSettings& settings, std::unique_ptr<Integrator> integrator);
+  Session(std::shared_ptr<const Scene> scene, const RenderSettings& settings,
+          std::unique_ptr<Integrator> integrator);
   ~Session();  // cancels
 
-  /// Renders in the background until settings.spp, the time limit or cancel(). Goes on from the film as it is.
+  /// Renders in the background until settings.spp, the time limit or cancel(). Goes on from the film as it
+  /// is.
   void start();
   /// Ends rendering within some milliseconds: tiles in progress are given up.
   void cancel();
@@ -72,8 +74,8 @@ class Session {
   SessionStats stats() const;
   const World& world() const { return *world_; }
 
-  /// Takes an edited scene, rebuilds what `changed` (of Changed) needs, and starts the film again; goes on rendering if
-  /// it was.
+  /// Takes an edited scene, rebuilds what `changed` (of Changed) needs, and starts the film again; goes on
+  /// rendering if it was.
   void update(std::shared_ptr<const Scene> scene, unsigned changed);
 
  private:

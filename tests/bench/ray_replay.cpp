@@ -1,5 +1,6 @@
-/// What the renderer costs on top of its rays: renders a scene on one thread, records every ray at the border to Embree
-/// (the linker wraps rtcIntersect1 and rtcOccluded1), and replays the same rays bare in the same order.
+/// What the renderer costs on top of its rays: renders a scene on one thread, records every ray at the border
+/// to Embree (the linker wraps rtcIntersect1 and rtcOccluded1), and replays the same rays bare in the same
+/// order.
 ///
 /// usage: ray_replay SCENE [SIZE] [SPP] [RUNS]
 /// Prints CPU microseconds per camera path of both, and their ratio, run by run (interleaved) and as medians.
@@ -155,8 +156,10 @@ int main(int argc, char** argv) {
     fmt::print("run {}: render {:.3f} us, replay {:.3f} us, ratio {:.3f}\n", i + 1, render_times.back(),
                replay_times.back(), ratios.back());
   }
-  fmt::print("median: render {:.3f} us, replay {:.3f} us per camera path, ratio {:.3f}; {:.2f} rays per path, {:.1f}% hit\n",
-             median(render_times), median(replay_times), median(ratios), double(rays.size()) / paths,
-             100.0 * double(hits) / (double(rays.size()) * runs));
+  fmt::print(
+      "median: render {:.3f} us, replay {:.3f} us per camera path, ratio {:.3f}; {:.2f} rays per path, "
+      "{:.1f}% hit\n",
+      median(render_times), median(replay_times), median(ratios), double(rays.size()) / paths,
+      100.0 * double(hits) / (double(rays.size()) * runs));
   return 0;
 }

@@ -70,9 +70,9 @@ inline testing::AssertionResult chi_square(std::span<const double> observed, std
                                      << " degrees of freedom: p = " << p << " < " << least;
 }
 
-/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four, three times
-/// at least and `depth` times at most, until the parts agree with the whole to `tolerance` and none of them
-/// has the border of where f is 0 in it.
+/// Integral of f over [x0, x1] x [y0, y1]: Gauss-Legendre of 4 x 4 points, the rectangle cut into four, three
+/// times at least and `depth` times at most, until the parts agree with the whole to `tolerance` and none of
+/// them has the border of where f is 0 in it.
 template <class F>
 double integrate(const F& f, double x0, double x1, double y0, double y1, double tolerance = 1e-7,
                  int depth = 8) {
