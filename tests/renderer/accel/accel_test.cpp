@@ -325,7 +325,7 @@ SelfHits count_self_hits(int scenes, int rays, bool editable, std::uint32_t seed
   return result;
 }
 
-// GT 43 to 46. Caught: a constant offset of 1e-4, error_gamma(2) for error_gamma(8), the condition of the
+// GT 43 to 46. Caught: a constant offset of 1e-4, error_gamma(1) for error_gamma(16), the condition of the
 // placement left out, p itself as the origin.
 TEST(Accel, RaysDoNotMeetTheTriangleTheyLeft) {
   for (const bool editable : {false, true}) {
