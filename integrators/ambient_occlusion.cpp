@@ -5,23 +5,26 @@
 
 namespace parian {
 
-Rgb AmbientOcclusionIntegrator::radiance(const TraceContext& context, const Ray& ray, Sampler& sampler,
-                                         RayCounts& counts, Features* features) const {
-  Hit hit;
-  if (!context.accel.intersect(ray, sampler.hash(), hit, true)) return Rgb(1, 1, 1);
-  if (hit.placement == Hit::kAreaLightHit) {
-    if (features) *features = area_light_features(context, hit);
-    return Rgb(1, 1, 1);
-  }
-  const Surface surface = make_surface(context.scene, context.world, hit, ray.d);
-  if (features) *features = surface_features(context, surface, hit);
-  const Vec3f w = surface.frame.to_world(sample_cosine_hemisphere(sampler.next2()));
+void AmbientOcclusionIntegrator::estimate(const TraceContext& context, std::span<CameraPath> paths,
+                                          RayCounts& counts, bool features_wanted) const {
+  for (CameraPath& path : paths)
+    if (!occluded(context, path, counts, features_wanted)) path.radiance = Rgb(1, 1, 1);
+}
+
+/// Whether something blocks a direction from what the camera ray met.
+bool AmbientOcclusionIntegrator::occluded(const TraceContext& context, CameraPath& path, RayCounts& counts,
+                                          bool features_wanted) const {
+  const Hit& hit = path.hit;
+  if (hit.placement == Hit::kMiss) return false;
+  if (features_wanted) path.features = hit_features(context, hit, path.ray.d);
+  if (hit.placement == Hit::kAreaLightHit) return false;
+  const Surface surface = make_surface(context.scene, context.world, hit, path.ray.d);
+  const Vec3f w = surface.frame.to_world(sample_cosine_hemisphere(path.sampler.next2()));
   // Below the geometric surface: blocked by the surface itself.
-  if ((w.dot(surface.ng) > 0) != surface.front) return Rgb(0, 0, 0);
+  if ((w.dot(surface.ng) > 0) != surface.front) return true;
   const float distance = settings_.occlusion_distance > 0 ? settings_.occlusion_distance : kInfinity;
   ++counts.shadow;
-  return context.accel.occluded({ray_origin(surface, w), w, distance}, sampler.hash()) ? Rgb(0, 0, 0)
-                                                                                       : Rgb(1, 1, 1);
+  return context.accel.occluded({ray_origin(surface, w), w, distance}, path.sampler.key());
 }
 
 }  // namespace parian

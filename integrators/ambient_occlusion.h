@@ -9,10 +9,12 @@ class AmbientOcclusionIntegrator final : public Integrator {
  public:
   explicit AmbientOcclusionIntegrator(const IntegratorSettings& settings) : settings_(settings) {}
   /// Grey in [0, 1]; the background is 1.
-  Rgb radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts& counts,
-               Features* features) const override;
+  void estimate(const TraceContext& context, std::span<CameraPath> paths, RayCounts& counts,
+                bool features_wanted) const override;
 
  private:
+  bool occluded(const TraceContext& context, CameraPath& path, RayCounts& counts, bool features_wanted) const;
+
   IntegratorSettings settings_;
 };
 

@@ -6,14 +6,15 @@
 
 namespace parian {
 
-inline Features surface_features(const TraceContext& context, const Surface& surface, const Hit& hit) {
+/// What a ray of direction d met, which is not nothing.
+inline Features hit_features(const TraceContext& context, const Hit& hit, const Vec3f& d) {
+  if (hit.placement == Hit::kAreaLightHit) {
+    const AreaLight& light = context.world.area_lights[hit.triangle];
+    return {Rgb(0, 0, 0), light.normal, hit.t, std::uint32_t(light.node) + 1};
+  }
+  const Surface surface = make_surface(context.scene, context.world, hit, d);
   return {estimate_albedo(context.scene, surface), surface.frame.z, hit.t,
           std::uint32_t(context.world.placements[hit.placement].node) + 1};
-}
-
-inline Features area_light_features(const TraceContext& context, const Hit& hit) {
-  const AreaLight& light = context.world.area_lights[hit.triangle];
-  return {Rgb(0, 0, 0), light.normal, hit.t, std::uint32_t(light.node) + 1};
 }
 
 }  // namespace parian

@@ -3,25 +3,30 @@
 #include "integrators/features.h"
 
 namespace parian {
+namespace {
 
-Rgb FirstHitIntegrator::radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts&,
-                                 Features* features) const {
-  Hit hit;
-  if (!context.accel.intersect(ray, sampler.hash(), hit, true)) return Rgb(0, 0, 0);
-  const Features first =
-      hit.placement == Hit::kAreaLightHit
-          ? area_light_features(context, hit)
-          : surface_features(context, make_surface(context.scene, context.world, hit, ray.d), hit);
-  if (features) *features = first;
-  switch (property_) {
-    case Property::albedo:
+Rgb color_of(const Features& first, FirstHitIntegrator::Property property) {
+  switch (property) {
+    case FirstHitIntegrator::Property::albedo:
       return first.albedo;
-    case Property::normal:
+    case FirstHitIntegrator::Property::normal:
       return Rgb(0.5f, 0.5f, 0.5f) + Rgb(first.normal.x, first.normal.y, first.normal.z) * 0.5f;
-    case Property::depth:
+    case FirstHitIntegrator::Property::depth:
       return Rgb(first.depth, first.depth, first.depth);
   }
   return Rgb(0, 0, 0);
+}
+
+}  // namespace
+
+void FirstHitIntegrator::estimate(const TraceContext& context, std::span<CameraPath> paths, RayCounts&,
+                                  bool features_wanted) const {
+  for (CameraPath& path : paths) {
+    if (path.hit.placement == Hit::kMiss) continue;
+    const Features first = hit_features(context, path.hit, path.ray.d);
+    path.radiance = color_of(first, property_);
+    if (features_wanted) path.features = first;
+  }
 }
 
 }  // namespace parian

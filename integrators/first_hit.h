@@ -11,8 +11,8 @@ class FirstHitIntegrator final : public Integrator {
   explicit FirstHitIntegrator(Property property) : property_(property) {}
   /// Albedo; the shading normal, each axis mapped from [-1, 1] to [0, 1]; or the distance in metres, grey.
   /// The background is black.
-  Rgb radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts& counts,
-               Features* features) const override;
+  void estimate(const TraceContext& context, std::span<CameraPath> paths, RayCounts& counts,
+                bool features_wanted) const override;
 
  private:
   Property property_;

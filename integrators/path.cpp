@@ -10,123 +10,187 @@ namespace {
 // 1e-6.
 constexpr float kShadowEnd = 1 - 1e-5f;
 
-/// One path as it grows. `pdf` is the density per solid angle of its last direction; infinite for the
-/// camera's, which no light sample competes with.
+/// One path as it grows: its last ray and what that met are those of `camera`. `pdf` is the density per solid
+/// angle of the ray's direction; infinite for the camera's, which no light sample competes with.
 struct Path {
-  const TraceContext& context;
-  const IntegratorSettings& settings;
-  Sampler& sampler;
-  RayCounts& counts;
-  Ray ray;
-  Rgb weight{1, 1, 1}, radiance{0, 0, 0};
-  float pdf = kInfinity;
+  CameraPath* camera;
+  Rgb weight;
+  float pdf;
+  Rgb direct;  // what the last surface gets straight from a light, unless something lies between
 
+  const Ray& ray() const { return camera->ray; }
+  const Hit& hit() const { return camera->hit; }
+  Sampler& sampler() { return camera->sampler; }
+};
+
+/// The numbers that every scattering takes.
+struct Numbers {
+  Vec2f light, direction;
+};
+
+/// The steps of paths that grow side by side.
+class Tracer {
+ public:
+  Tracer(const TraceContext& context, const IntegratorSettings& settings, RayCounts& counts)
+      : context_(context), settings_(settings), counts_(counts) {}
+
+  /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
+  /// light that it samples, and where it goes. False where it ends.
+  bool arrive(Path& path, int depth, const Numbers& numbers) {
+    Rgb& radiance = path.camera->radiance;
+    // A ray that leaves the scene, or ends at a light without a surface, brings what it sees there.
+    if (path.hit().placement == Hit::kMiss) {
+      radiance += path.weight * environment(path);
+      return false;
+    }
+    if (path.hit().placement == Hit::kAreaLightHit) {
+      radiance += path.weight * area_light(path);
+      return false;
+    }
+    const Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
+    if (surface.part->material->unlit) {
+      radiance += path.weight * eval_base_color(context_.scene, surface);
+      return false;
+    }
+    if (surface.part->emissive) radiance += path.weight * emission(path, surface);
+    if (depth == settings_.max_depth) return false;
+
+    // Scatter: light sampled directly, then a direction to go on.
+    const Bsdf bsdf = make_bsdf(context_.scene, surface);
+    if (!context_.lights.empty()) sample_direct_light(path, surface, bsdf, numbers.light);
+    return scatter(path, surface, bsdf, numbers.direction) && survive(path);
+  }
+
+  /// Adds the sampled light whose shadow rays nothing blocks.
+  void add_direct_light() {
+    if (shadow_rays_.count == 0) return;
+    counts_.shadow += shadow_rays_.count;
+    const std::uint32_t blocked = context_.accel.occluded(shadow_rays_);
+    for (int i = 0; i < shadow_rays_.count; ++i)
+      if (!(blocked >> i & 1)) waiting_[i]->camera->radiance += waiting_[i]->direct;
+    shadow_rays_.count = 0;
+  }
+
+  /// Follows a path to what it meets next.
+  void follow(Path& path) {
+    ++counts_.scattered;
+    context_.accel.intersect(path.ray(), path.sampler().key(), path.camera->hit);
+  }
+
+ private:
   /// The weight of light that the path ran into, where sampling lights would have found it with density
   /// `light_pdf`.
-  float hit_weight(float light_pdf) const {
-    if (pdf == kInfinity || settings.strategy == Strategy::bsdf) return 1;
-    if (settings.strategy == Strategy::light) return light_pdf > 0 ? 0.0f : 1.0f;
-    return power_heuristic(pdf, light_pdf);
+  float hit_weight(const Path& path, float light_pdf) const {
+    if (path.pdf == kInfinity || settings_.strategy == Strategy::bsdf) return 1;
+    if (settings_.strategy == Strategy::light) return light_pdf > 0 ? 0.0f : 1.0f;
+    return power_heuristic(path.pdf, light_pdf);
   }
 
-  void add_environment() {
-    const EnvironmentLight& environment = context.lights.environment();
-    if (environment.black()) return;
-    const float competing = pdf == kInfinity ? 0 : context.lights.pdf_environment(ray.d);
-    radiance += weight * environment.eval(ray.d) * hit_weight(competing);
+  Rgb environment(const Path& path) const {
+    const EnvironmentLight& environment = context_.lights.environment();
+    if (environment.black()) return Rgb(0, 0, 0);
+    if (path.pdf == kInfinity) return environment.eval(path.ray().d);
+    const EnvironmentSample seen = context_.lights.look_up_environment(path.ray().d);
+    return seen.radiance * hit_weight(path, seen.pdf);
   }
 
-  void add_area_light(const Hit& hit) {
-    const AreaLight& light = context.world.area_lights[hit.triangle];
-    const float cosine = -ray.d.dot(light.normal);
-    if (cosine <= 0) return;
-    radiance += weight * light.radiance *
-                hit_weight(pdf == kInfinity ? 0 : context.lights.pdf_area_light(hit, cosine));
+  Rgb area_light(const Path& path) const {
+    const AreaLight& light = context_.world.area_lights[path.hit().triangle];
+    const float cosine = -path.ray().d.dot(light.normal);
+    if (cosine <= 0) return Rgb(0, 0, 0);
+    const float competing = path.pdf == kInfinity ? 0 : context_.lights.pdf_area_light(path.hit(), cosine);
+    return light.radiance * hit_weight(path, competing);
   }
 
-  void add_emission(const Surface& surface, const Hit& hit) {
-    if (!surface.front && !surface.part->material->double_sided) return;
-    const float cosine = std::abs(ray.d.dot(surface.ng));
-    const float competing = pdf == kInfinity || cosine == 0 ? 0 : context.lights.pdf_triangle(hit, cosine);
-    radiance +=
-        weight * eval_emission(context.scene, *surface.part->material, surface.uvs) * hit_weight(competing);
+  Rgb emission(const Path& path, const Surface& surface) const {
+    const Material& material = *surface.part->material;
+    if (!surface.front && !material.double_sided) return Rgb(0, 0, 0);
+    const float cosine = std::abs(path.ray().d.dot(surface.ng));
+    const float competing =
+        path.pdf == kInfinity || cosine == 0 ? 0 : context_.lights.pdf_triangle(path.hit(), cosine);
+    return eval_emission(context_.scene, material, surface.uvs) * hit_weight(path, competing);
   }
 
-  /// Light that reaches the surface straight from a sampled point of a sampled light.
-  void add_direct_light(const Surface& surface, const Bsdf& bsdf) {
-    const std::optional<LightSample> light = context.lights.sample(surface.p, sampler);
+  /// Samples a point of a light; whether it is seen is for later.
+  void sample_direct_light(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) {
+    const std::optional<LightSample> light = context_.lights.sample(surface.p, u, path.sampler());
     if (!light) return;
-    if (!light->delta && settings.strategy == Strategy::bsdf) return;
+    if (!light->delta && settings_.strategy == Strategy::bsdf) return;
     const BsdfValue value = bsdf.eval(light->wi);
     if (is_black(value.f_cos)) return;
-    const float share =
-        light->delta || settings.strategy == Strategy::light ? 1 : power_heuristic(light->pdf, value.pdf);
-    const Rgb contribution = weight * value.f_cos * light->radiance * (share / light->pdf);
-    if (is_black(contribution)) return;
+    const bool alone = light->delta || settings_.strategy == Strategy::light;
+    path.direct = path.weight * value.f_cos * light->radiance *
+                  (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
+    if (is_black(path.direct)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
-    const Ray shadow =
-        light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd};
-    ++counts.shadow;
-    if (!context.accel.occluded(shadow, sampler.hash())) radiance += contribution;
+    waiting_[shadow_rays_.count] = &path;
+    shadow_rays_.add(
+        light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd},
+        path.sampler().key());
   }
 
   /// Goes on in a direction sampled from the BSDF; false where the path ends.
-  bool scatter(const Surface& surface, const Bsdf& bsdf) {
-    const float choice = bsdf.has_choice() ? sampler.next1() : 0;
-    const std::optional<BsdfSample> sample = bsdf.sample(choice, sampler.next2());
+  bool scatter(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) const {
+    const float choice = bsdf.has_choice() ? path.sampler().next1() : 0;
+    const std::optional<BsdfSample> sample = bsdf.sample(choice, u);
     if (!sample) return false;
-    weight *= sample->weight;
-    pdf = sample->pdf;
-    ray = {ray_origin(surface, sample->wi), sample->wi};
+    path.weight *= sample->weight;
+    path.pdf = sample->pdf;
+    path.camera->ray = {ray_origin(surface, sample->wi), sample->wi};
     return true;
   }
 
-  /// Russian roulette by what the path still carries: the survivors' weights make up for the others.
-  bool survive() {
-    const float survival = std::min(1.0f, max_component(weight));
-    if (!(survival > 0)) return false;
-    if (survival < 1) {
-      if (sampler.next_independent() >= survival) return false;
-      weight *= 1 / survival;
-    }
-    return true;
+  /// Russian roulette by what the path still carries: the survivors' weights make up for the others. Without
+  /// branches: the outcome is chance, and a branch on chance is mispredicted.
+  bool survive(Path& path) const {
+    const float survival = std::min(1.0f, max_component(path.weight));
+    path.weight *= 1 / survival;
+    return path.sampler().next_independent() < survival;
   }
+
+  const TraceContext& context_;
+  const IntegratorSettings& settings_;
+  RayCounts& counts_;
+  RayPacket shadow_rays_;
+  std::array<Path*, RayPacket::kSize> waiting_;  // whose light the shadow rays ask about
 };
 
 }  // namespace
 
-Rgb PathIntegrator::radiance(const TraceContext& context, const Ray& camera_ray, Sampler& sampler,
-                             RayCounts& counts, Features* features) const {
-  Path path{context, settings_, sampler, counts, camera_ray};
-  for (int depth = 0;; ++depth) {
-    Hit hit;
-    // A ray that leaves the scene, or ends at a light without a surface, brings what it sees there.
-    if (depth > 0) ++counts.scattered;
-    if (!context.accel.intersect(path.ray, sampler.hash(), hit, depth == 0)) {
-      path.add_environment();
-      break;
-    }
-    if (hit.placement == Hit::kAreaLightHit) {
-      if (features && depth == 0) *features = area_light_features(context, hit);
-      path.add_area_light(hit);
-      break;
-    }
-
-    const Surface surface = make_surface(context.scene, context.world, hit, path.ray.d);
-    if (features && depth == 0) *features = surface_features(context, surface, hit);
-    if (surface.part->material->unlit) {
-      path.radiance += path.weight * eval_base_color(context.scene, surface);
-      break;
-    }
-    if (surface.part->emissive) path.add_emission(surface, hit);
-    if (depth == settings_.max_depth) break;
-
-    // Scatter: light sampled directly, then a direction to go on.
-    const Bsdf bsdf = make_bsdf(context.scene, surface);
-    if (!context.lights.empty()) path.add_direct_light(surface, bsdf);
-    if (!path.scatter(surface, bsdf) || !path.survive()) break;
+void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath> camera_paths,
+                              RayCounts& counts, bool features_wanted) const {
+  std::array<Path, RayPacket::kSize> paths;
+  std::array<Path*, RayPacket::kSize> growing;
+  std::array<Sampler*, RayPacket::kSize> samplers;  // of the growing paths
+  std::size_t count = 0;
+  for (CameraPath& camera : camera_paths) {
+    if (features_wanted && camera.hit.placement != Hit::kMiss)
+      camera.features = hit_features(context, camera.hit, camera.ray.d);
+    Path& path = paths[count];
+    path.camera = &camera;
+    path.weight = Rgb(1, 1, 1);
+    path.pdf = kInfinity;
+    samplers[count] = &camera.sampler;
+    growing[count++] = &path;
   }
-  return path.radiance;
+
+  Tracer tracer(context, settings_, counts);
+  for (int depth = 0; count > 0; ++depth) {
+    std::array<Vec2f, RayPacket::kSize> light, direction;
+    next2_twice({samplers.data(), count}, light.data(), direction.data());
+    // Those that go on move to the front, without a branch on whether they do.
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      Path& path = *growing[i];
+      const bool goes_on = tracer.arrive(path, depth, {light[i], direction[i]});
+      growing[left] = &path;
+      samplers[left] = &path.sampler();
+      left += goes_on;
+    }
+    count = left;
+    tracer.add_direct_light();
+    for (std::size_t i = 0; i < count; ++i) tracer.follow(*growing[i]);
+  }
 }
 
 }  // namespace parian

@@ -9,8 +9,8 @@ namespace parian {
 class PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const IntegratorSettings& settings) : settings_(settings) {}
-  Rgb radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts& counts,
-               Features* features) const override;
+  void estimate(const TraceContext& context, std::span<CameraPath> paths, RayCounts& counts,
+                bool features_wanted) const override;
 
  private:
   IntegratorSettings settings_;

@@ -16,26 +16,25 @@ class Bsdf {
  public:
   using AnyLobe = std::variant<Lambert, MetallicRoughness>;
 
-  Bsdf(const Surface& surface, const AnyLobe& lobe)
-      : frame_(surface.frame),
-        wo_(surface.frame.to_local(surface.wo)),
-        ng_(surface.front ? surface.ng : -surface.ng),
-        lobe_(lobe) {}
+  /// The surface must outlive the BSDF.
+  Bsdf(const Surface& surface, const AnyLobe& lobe) : surface_(surface), lobe_(lobe) {}
+  Bsdf(Surface&&, const AnyLobe&) = delete;
 
   /// f |cos wi| with the cosine to the shading normal, and the density per solid angle with which sample()
   /// finds wi.
   BsdfValue eval(const Vec3f& wi) const {
-    if (wi.dot(ng_) <= 0) return {};
-    const Vec3f local = frame_.to_local(wi);
-    return std::visit([&](const auto& lobe) { return lobe.eval(wo_, local); }, lobe_);
+    if (behind(wi)) return {};
+    // Into the frame inside the choice: a lobe that does not look at a coordinate does not pay for it.
+    return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); },
+                      lobe_);
   }
 
   std::optional<BsdfSample> sample(float u1, const Vec2f& u2) const {
     std::optional<BsdfSample> s =
-        std::visit([&](const auto& lobe) { return lobe.sample(wo_, u1, u2); }, lobe_);
+        std::visit([&](const auto& lobe) { return lobe.sample(to_local(surface_.wo), u1, u2); }, lobe_);
     if (!s) return s;
-    s->wi = frame_.to_world(s->wi);
-    if (s->wi.dot(ng_) <= 0) return std::nullopt;
+    s->wi = surface_.frame.to_world(s->wi);
+    if (behind(s->wi)) return std::nullopt;
     return s;
   }
 
@@ -43,8 +42,11 @@ class Bsdf {
   bool has_choice() const { return !std::holds_alternative<Lambert>(lobe_); }
 
  private:
-  Frame frame_;
-  Vec3f wo_, ng_;
+  Vec3f to_local(const Vec3f& w) const { return surface_.frame.to_local(w); }
+  /// Whether w and wo are on different sides of the surface.
+  bool behind(const Vec3f& w) const { return (surface_.front ? w : -w).dot(surface_.ng) <= 0; }
+
+  const Surface& surface_;
   AnyLobe lobe_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <stdexcept>
 #include <vector>
 
@@ -15,33 +17,47 @@ namespace {
 
 constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
 
-/// What the alpha filter needs of the ray that Embree traces; Embree passes the context on.
+/// What the alpha filter needs of the rays that Embree traces; Embree passes the context on.
 struct Query : EmbreeContext {
   const Scene* scene;
-  const World* world;
-  std::uint32_t random;
+  const std::uint32_t* random;  // of each ray, by its id
+
+  Query(const Scene* s, const std::uint32_t* r, bool coherent) : scene(s), random(r) {
+    init_context(*this, coherent);
+  }
 };
+
+/// Calls keep(i) for each hit that Embree asks about, and turns it away where that is false.
+template <class Keep>
+void filter_hits(const RTCFilterFunctionNArguments* a, const Keep& keep) {
+  for (unsigned i = 0; i < a->N; ++i)
+    if (a->valid[i] == -1 && !keep(i)) a->valid[i] = 0;
+}
 
 /// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that
 /// a triangle met twice by one ray decides alike.
 void alpha_filter(const RTCFilterFunctionNArguments* a) {
   const Part& part = *static_cast<const Part*>(a->geometryUserPtr);
   const auto* query = static_cast<const Query*>(a->context);
-  const std::uint32_t triangle = RTCHitN_primID(a->hit, 1, 0);
-  const float coverage =
-      eval_coverage(*query->scene, part, triangle, RTCHitN_u(a->hit, 1, 0), RTCHitN_v(a->hit, 1, 0));
-  if (coverage >= 1) return;
-  const std::uint32_t top = RTCHitN_instID(a->hit, 1, 0, 0);
-  const std::uint32_t where = hash32(triangle, hash32(RTCHitN_geomID(a->hit, 1, 0), top));
-  if (to_unit_float(hash32(query->random, where)) >= coverage) *a->valid = 0;
+  filter_hits(a, [&](unsigned i) {
+    const std::uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
+    const float coverage =
+        eval_coverage(*query->scene, part, triangle, RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
+    if (coverage >= 1) return true;
+    const std::uint32_t top = RTCHitN_instID(a->hit, a->N, i, 0);
+    const std::uint32_t where = hash32(triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
+    return to_unit_float(hash32(query->random[RTCRayN_id(a->ray, a->N, i)], where)) < coverage;
+  });
 }
 
 /// Cuts the disk out of its quad.
 void disk_filter(const RTCFilterFunctionNArguments* a) {
   const auto* lights = static_cast<const std::vector<AreaLight>*>(a->geometryUserPtr);
-  if (!(*lights)[RTCHitN_primID(a->hit, 1, 0)].disk) return;
-  const float x = RTCHitN_u(a->hit, 1, 0) - 0.5f, y = RTCHitN_v(a->hit, 1, 0) - 0.5f;
-  if (x * x + y * y > 0.25f) *a->valid = 0;
+  filter_hits(a, [&](unsigned i) {
+    if (!(*lights)[RTCHitN_primID(a->hit, a->N, i)].disk) return true;
+    const float x = RTCHitN_u(a->hit, a->N, i) - 0.5f, y = RTCHitN_v(a->hit, a->N, i) - 0.5f;
+    return x * x + y * y <= 0.25f;
+  });
 }
 
 void set_ray(RTCRay& r, const Ray& ray) {
@@ -57,6 +73,37 @@ void set_ray(RTCRay& r, const Ray& ray) {
   r.mask = 0xffffffffu;
   r.id = 0;
   r.flags = 0;
+}
+
+struct Lanes {
+  alignas(64) int valid[RayPacket::kSize];
+};
+
+/// Returns which lanes hold a ray.
+Lanes set_rays(RTCRay16& r, const RayPacket& rays) {
+  assert(0 < rays.count && rays.count <= RayPacket::kSize);
+  Lanes lanes;
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    lanes.valid[i] = i < rays.count ? -1 : 0;
+    r.tnear[i] = 0;
+    r.time[i] = 0;
+    r.mask[i] = 0xffffffffu;
+    r.id[i] = unsigned(i);
+    r.flags[i] = 0;
+  }
+  // Lanes without a ray repeat the first one: Embree looks at them, and takes longer where they hold another.
+  const auto set = [&](float* to, const float* from) {
+    std::copy_n(from, RayPacket::kSize, to);
+    for (int i = rays.count; i < RayPacket::kSize; ++i) to[i] = from[0];
+  };
+  set(r.org_x, rays.ox);
+  set(r.org_y, rays.oy);
+  set(r.org_z, rays.oz);
+  set(r.dir_x, rays.dx);
+  set(r.dir_y, rays.dy);
+  set(r.dir_z, rays.dz);
+  set(r.tfar, rays.tmax);
+  return lanes;
 }
 
 bool memory_monitor(void* user, ssize_t bytes, bool) {
@@ -112,6 +159,13 @@ struct Accel::Impl {
   void check(const char* what) const {
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
       throw std::runtime_error(fmt::format("Embree: {} failed with error {}", what, int(error)));
+  }
+
+  Hit to_hit(float t, float u, float v, unsigned instance, unsigned geometry, unsigned triangle) const {
+    if (geometry == kInvalid) return {t, u, v, Hit::kMiss, 0, 0};
+    const bool instanced = instance != kInvalid;
+    const TopEntry& entry = entries[instanced ? instance : geometry];
+    return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle};
   }
 
   RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
@@ -276,35 +330,45 @@ void Accel::update_transforms(const Scene& scene, const World& world) {
   impl_->commit_top();
 }
 
-bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit, bool coherent) const {
-  Query query;
-  init_context(query);
-  query.scene = impl_->scene;
-  query.world = impl_->world;
-  query.random = random;
+bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
+  Query query(impl_->scene, &random, false);
   RTCRayHit r;
   set_ray(r.ray, ray);
   r.hit.geomID = kInvalid;
   r.hit.instID[0] = kInvalid;
-  embree_intersect(impl_->top, r, query, coherent);
-  if (r.hit.geomID == kInvalid) return false;
-  const bool instanced = r.hit.instID[0] != kInvalid;
-  const Impl::TopEntry& entry = impl_->entries[instanced ? r.hit.instID[0] : r.hit.geomID];
-  hit = {r.ray.tfar,  r.hit.u, r.hit.v, entry.placement, instanced ? r.hit.geomID : entry.primitive,
-         r.hit.primID};
-  return true;
+  embree_intersect(impl_->top, r, query);
+  hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID);
+  return hit.placement != Hit::kMiss;
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
-  Query query;
-  init_context(query);
-  query.scene = impl_->scene;
-  query.world = impl_->world;
-  query.random = random;
+  Query query(impl_->scene, &random, false);
   RTCRay r;
   set_ray(r, ray);
   embree_occluded(impl_->top, r, query);
   return r.tfar < 0;
+}
+
+void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
+  Query query(impl_->scene, rays.random, true);
+  RTCRayHit16 r;
+  const Lanes lanes = set_rays(r.ray, rays);
+  std::ranges::fill(r.hit.geomID, kInvalid);
+  std::ranges::fill(r.hit.instID[0], kInvalid);
+  embree_intersect(impl_->top, lanes.valid, r, query);
+  for (int i = 0; i < rays.count; ++i)
+    hits[i] = impl_->to_hit(r.ray.tfar[i], r.hit.u[i], r.hit.v[i], r.hit.instID[0][i], r.hit.geomID[i],
+                            r.hit.primID[i]);
+}
+
+std::uint32_t Accel::occluded(const RayPacket& rays) const {
+  Query query(impl_->scene, rays.random, false);
+  RTCRay16 r;
+  const Lanes lanes = set_rays(r, rays);
+  embree_occluded(impl_->top, lanes.valid, r, query);
+  std::uint32_t blocked = 0;
+  for (int i = 0; i < rays.count; ++i) blocked |= std::uint32_t(r.tfar[i] < 0) << i;
+  return blocked;
 }
 
 std::size_t Accel::bytes() const { return std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load())); }

@@ -4,6 +4,7 @@
 /// its rays nothing.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,26 @@ struct BuildCounts {
   int top_level = 0;  // commits of the top-level scene
 };
 
+/// Up to 16 rays that are traced together, each with the number that decides stochastic alpha.
+struct alignas(64) RayPacket {
+  static constexpr int kSize = 16;
+  float ox[kSize]{}, oy[kSize]{}, oz[kSize]{}, dx[kSize]{}, dy[kSize]{}, dz[kSize]{}, tmax[kSize]{};
+  std::uint32_t random[kSize]{};
+  int count = 0;
+
+  void add(const Ray& ray, std::uint32_t number) {
+    ox[count] = ray.o.x;
+    oy[count] = ray.o.y;
+    oz[count] = ray.o.z;
+    dx[count] = ray.d.x;
+    dy[count] = ray.d.y;
+    dz[count] = ray.d.z;
+    tmax[count] = ray.tmax;
+    random[count++] = number;
+  }
+  Ray ray(int i) const { return {{ox[i], oy[i], oz[i]}, {dx[i], dy[i], dz[i]}, tmax[i]}; }
+};
+
 class Accel {
  public:
   /// The scene and world must outlive the Accel. Throws std::runtime_error where Embree fails (out of
@@ -37,11 +58,19 @@ class Accel {
   /// Points to a scene and world that differ from those given before in nothing that the BVH holds.
   void rebind(const Scene& scene, const World& world);
 
-  /// Nearest hit of the ray, if any; rays of unit direction. `random` decides stochastic alpha. `coherent`:
-  /// neighbouring calls follow similar rays (camera rays).
-  bool intersect(const Ray& ray, std::uint32_t random, Hit& hit, bool coherent = false) const;
+  /// Nearest hit of the ray, if any (else hit.placement is kMiss); rays of unit direction. `random` decides
+  /// stochastic alpha.
+  bool intersect(const Ray& ray, std::uint32_t random, Hit& hit) const;
   /// Whether anything lies in (0, tmax) of the ray, whose direction need not be of unit length.
   bool occluded(const Ray& ray, std::uint32_t random) const;
+
+  /// The same for a packet of one ray at least; far cheaper than one by one where the rays run along each
+  /// other, as the camera rays of neighbouring pixels do. A hit may depend on the other rays within rounding,
+  /// so who wants the same bits again asks for the same rays together.
+  void intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const;
+  /// The same; bit i says that ray i is blocked. Cheaper where they end in one place, as shadow rays to a
+  /// lamp do.
+  std::uint32_t occluded(const RayPacket& rays) const;
 
   std::size_t bytes() const;  // what Embree holds now
   BuildCounts builds() const;

@@ -18,11 +18,25 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
     cdf_[i] = 1;
     if (total_ == 0 || weights[i - 1] > 0) break;
   }
+  few_.fill(2);
+  if (size() <= kFew) {
+    std::copy(cdf_.begin() + 1, cdf_.end(), few_.begin());
+    return;
+  }
+  guide_.reserve(cdf_.size());
+  for (std::size_t k = 0; k < cdf_.size(); ++k)
+    guide_.push_back(
+        std::uint32_t(search(float(double(k) / size()), k == 0 ? 0 : int(guide_.back()), size() - 1)));
 }
 
-int Distribution1D::search(float u) const {
-  const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-  return std::clamp(int(above - cdf_.begin()) - 1, 0, size() - 1);
+/// The last index from `first` to `last` whose sum is at most u, by halving.
+int Distribution1D::search(float u, int first, int last) const {
+  for (int count = last - first + 1; count > 1;) {
+    const int half = count / 2;
+    if (cdf_[first + half] <= u) first += half;
+    count -= half;
+  }
+  return first;
 }
 
 Distribution2D::Distribution2D(int nx, int ny, const std::function<float(int, int)>& weight)

@@ -1,6 +1,9 @@
 /// Warps of the unit square, their densities, and the weights that combine strategies.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "renderer/base/math.h"
 
 namespace parian {
@@ -12,8 +15,12 @@ inline Vec2f unit_circle(float u) {
   const float x = (u - 0.25f * float(quarter)) * (2 * kPi), x2 = x * x;
   const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
   const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
-  const Vec2f turned = quarter & 1 ? Vec2f(-s, c) : Vec2f(c, s);
-  return quarter & 2 ? -turned : turned;
+  // By bits: which quarter it is is chance, and a branch on chance is mispredicted half the time.
+  const std::uint32_t odd = -(std::uint32_t(quarter) & 1), sign = (std::uint32_t(quarter) & 2) << 30;
+  const auto bits_s = std::bit_cast<std::uint32_t>(s), bits_c = std::bit_cast<std::uint32_t>(c);
+  const std::uint32_t exchange = (bits_s ^ bits_c) & odd;
+  return {std::bit_cast<float>(bits_c ^ exchange ^ sign ^ (odd & 0x80000000u)),
+          std::bit_cast<float>(bits_s ^ exchange ^ sign)};
 }
 
 /// Cosine-distributed direction about +z; density cos / pi per solid angle.
@@ -35,7 +42,8 @@ inline Vec3f sample_sphere(const Vec2f& u) {
 /// Barycentric weights (b1, b2) of a uniform point of a triangle (Heitz 2019, A Low-Distortion Map Between
 /// Triangle and Square).
 inline Vec2f sample_triangle(const Vec2f& u) {
-  return u.y > u.x ? Vec2f(u.x * 0.5f, u.y - u.x * 0.5f) : Vec2f(u.x - u.y * 0.5f, u.y * 0.5f);
+  const float half = 0.5f * std::min(u.x, u.y);
+  return {u.x - half, u.y - half};
 }
 
 /// Weight of a sample drawn with density a where another strategy has density b: the power heuristic with
@@ -45,5 +53,8 @@ inline float power_heuristic(float a, float b) {
   const float ratio = b / a;
   return 1 / (1 + ratio * ratio);
 }
+
+/// power_heuristic(a, b) / a, what a sample of density a is multiplied by; one division less.
+inline float power_heuristic_over_pdf(float a, float b) { return 1 / (a + b * (b / a)); }
 
 }  // namespace parian

@@ -25,11 +25,10 @@ class PixelFilter {
   /// Distance from the centre at u = (i / kIntervals)^2 / 2, and at 1 - u: closest in the tails, where it
   /// changes most. Linear in between, so that the box is exact.
   float sample_axis(float u) const {
-    const bool left = u < 0.5f;
-    const float w = 2 * kIntervals * kIntervals * (left ? u : 1 - u);
+    const float w = 2 * kIntervals * kIntervals * std::min(u, 1 - u);
     const int i = std::min(int(std::sqrt(w)), kIntervals - 1);
     const float x = distance_[i] + (w - float(i * i)) / float(2 * i + 1) * (distance_[i + 1] - distance_[i]);
-    return left ? -x : x;
+    return std::copysign(x, u - 0.5f);
   }
   std::array<float, kIntervals + 1> distance_;
 };

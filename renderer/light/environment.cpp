@@ -44,36 +44,40 @@ EnvironmentLight::EnvironmentLight(const Scene& scene) {
   mean_luminance_ *= float(distribution_.total() * kPi / 2 / (double(image.width) * image.height));
 }
 
-Vec2f EnvironmentLight::to_uv(const Vec3f& d) const {
+Vec2f EnvironmentLight::to_uv(const Vec3f& d, float& sin_theta) const {
   const Vec3f local(rotation_.x.dot(d), rotation_.y.dot(d), rotation_.z.dot(d));
   // Not the arc cosine of y, which loses the angle near the poles.
-  const float sin_theta = std::sqrt(local.x * local.x + local.z * local.z);
-  return {0.5f + std::atan2(local.z, local.x) * (0.5f * kInvPi), std::atan2(sin_theta, local.y) * kInvPi};
+  sin_theta = std::sqrt(local.x * local.x + local.z * local.z);
+  return {0.5f + angle_of(local.x, local.z) * (0.5f * kInvPi), angle_of(local.y, sin_theta) * kInvPi};
 }
 
-Rgb EnvironmentLight::eval(const Vec3f& d) const {
-  if (!scene_ || texture_.image == kNone) return radiance_;
-  const Vec4f c = eval_texture(*scene_, texture_, to_uv(d), ColorSpace::srgb);
+Rgb EnvironmentLight::eval_image(const Vec2f& uv) const {
+  const Vec4f c = eval_texture(*scene_, texture_, uv, ColorSpace::srgb);
   return radiance_ * Rgb(std::max(c.x, 0.0f), std::max(c.y, 0.0f), std::max(c.z, 0.0f));
 }
 
-Vec3f EnvironmentLight::sample(const Vec2f& u, float& pdf) const {
-  if (texture_.image == kNone) {
-    pdf = 0.25f * kInvPi;
-    return sample_sphere(u);
-  }
-  const Distribution2D::Sample s = distribution_.sample(u);
-  const float phi = 2 * kPi * (s.p.x - 0.5f), theta = kPi * s.p.y;
-  const float sin_theta = std::sin(theta);
-  pdf = sin_theta > 0 ? s.pdf / (2 * kPi * kPi * sin_theta) : 0;
-  return rotation_.vector({sin_theta * std::cos(phi), std::cos(theta), sin_theta * std::sin(phi)});
+Rgb EnvironmentLight::eval(const Vec3f& d) const {
+  if (texture_.image == kNone) return radiance_;
+  float sin_theta;
+  return eval_image(to_uv(d, sin_theta));
 }
 
-float EnvironmentLight::pdf(const Vec3f& d) const {
-  if (texture_.image == kNone) return 0.25f * kInvPi;
-  const Vec2f uv = to_uv(d);
-  const float sin_theta = std::sin(kPi * uv.y);
-  return sin_theta > 0 ? distribution_.pdf({uv.x - std::floor(uv.x), uv.y}) / (2 * kPi * kPi * sin_theta) : 0;
+EnvironmentSample EnvironmentLight::look_up(const Vec3f& d) const {
+  if (texture_.image == kNone) return {d, radiance_, 0.25f * kInvPi};
+  float sin_theta;
+  const Vec2f uv = to_uv(d, sin_theta);
+  const float density = distribution_.pdf({uv.x - std::floor(uv.x), uv.y});
+  return {d, eval_image(uv), sin_theta > 0 ? density / (2 * kPi * kPi * sin_theta) : 0};
+}
+
+EnvironmentSample EnvironmentLight::sample(const Vec2f& u) const {
+  if (texture_.image == kNone) return {sample_sphere(u), radiance_, 0.25f * kInvPi};
+  const Distribution2D::Sample s = distribution_.sample(u);
+  // Longitude 2 pi (u - 1/2) and polar angle pi v.
+  const Vec2f longitude = -unit_circle(s.p.x), polar = unit_circle(0.5f * s.p.y);
+  const float sin_theta = polar.y;
+  const Vec3f local(sin_theta * longitude.x, polar.x, sin_theta * longitude.y);
+  return {rotation_.vector(local), eval_image(s.p), sin_theta > 0 ? s.pdf / (2 * kPi * kPi * sin_theta) : 0};
 }
 
 }  // namespace parian

@@ -9,19 +9,21 @@ namespace {
 // the point.
 constexpr int kMaxLightsForOneNumber = 64;
 
-LightSample area_sample(const Vec3f& p, const Vec3f& point, const Vec3f& normal, float offset, float area) {
-  const Vec3f to_light = point - p;
-  const float distance2 = to_light.dot(to_light);
-  LightSample s;
-  s.wi = to_light * (1 / std::sqrt(distance2));
-  s.pdf = distance2 / (area * std::abs(s.wi.dot(normal)));
-  s.delta = s.at_infinity = false;
-  s.target = point + normal * (s.wi.dot(normal) < 0 ? offset : -offset);
-  return s;
-}
-
 /// A density that a light touching its receiver, or seen edge on, makes infinite or zero is no sample.
 bool usable(float pdf) { return pdf > 0 && pdf < kInfinity; }
+
+/// A point of a flat light of some area, chosen uniformly with the light's probability; all but its radiance.
+/// Nothing where it shows p its dark side.
+std::optional<LightSample> area_sample(const Vec3f& p, const Vec3f& point, const Vec3f& normal, float offset,
+                                       float area, float probability, bool double_sided) {
+  const Vec3f to_light = point - p;
+  const float distance2 = to_light.dot(to_light);
+  const Vec3f wi = to_light * (1 / std::sqrt(distance2));
+  const float cosine = -wi.dot(normal);
+  const float pdf = probability * distance2 / (area * std::abs(cosine));
+  if (!usable(pdf) || (!double_sided && cosine <= 0)) return std::nullopt;
+  return LightSample{wi, Rgb(0, 0, 0), pdf, false, false, point + normal * std::copysign(offset, cosine)};
+}
 
 }  // namespace
 
@@ -104,9 +106,8 @@ float LightTable::power(const PunctualLight& light, float scene_radius) const {
   }
 }
 
-std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) const {
+std::optional<LightSample> LightTable::sample(const Vec3f& p, Vec2f u, Sampler& sampler) const {
   int light = 0;
-  Vec2f u = sampler.next2();
   float probability = 1;
   if (count_ > 1) {
     const auto chosen = distribution_.sample(count_ <= kMaxLightsForOneNumber ? u.x : sampler.next1());
@@ -115,52 +116,46 @@ std::optional<LightSample> LightTable::sample(const Vec3f& p, Sampler& sampler) 
     if (count_ <= kMaxLightsForOneNumber) u.x = chosen.remainder;
     if (probability <= 0) return std::nullopt;
   }
-  std::optional<LightSample> s;
-  if (light < first_area_) {
-    s = sample_emissive(triangles_[light], p, u);
-  } else if (light < first_punctual_) {
-    s = sample_area(world_->area_lights[light - first_area_], p, u);
-  } else if (light < environment_index_) {
-    s = sample_punctual(world_->punctual_lights[light - first_punctual_], p);
-  } else {
-    float pdf;
-    const Vec3f wi = environment_.sample(u, pdf);
-    if (usable(pdf)) s = LightSample{wi, environment_.eval(wi), pdf, false, true, wi};
-  }
-  if (s) s->pdf *= probability;
-  return s;
+  if (light < first_area_) return sample_emissive(triangles_[light], probability, p, u);
+  if (light < first_punctual_)
+    return sample_area(world_->area_lights[light - first_area_], probability, p, u);
+  if (light < environment_index_)
+    return sample_punctual(world_->punctual_lights[light - first_punctual_], probability, p);
+  return sample_environment(probability, u);
 }
 
-std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e, const Vec3f& p,
-                                                       const Vec2f& u) const {
-  const Vec2f b = sample_triangle(u);
-  LightSample s = area_sample(p, e.v0 + e.e1 * b.x + e.e2 * b.y, e.ng, e.offset, e.area);
+std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e, float probability,
+                                                       const Vec3f& p, const Vec2f& u) const {
   const Material& material = *e.part->material;
-  if (!usable(s.pdf) || (!material.double_sided && s.wi.dot(e.ng) >= 0)) return std::nullopt;
-  s.radiance = material.emission;
+  const Vec2f b = sample_triangle(u);
+  const Vec3f point = e.v0 + e.e1 * b.x + e.e2 * b.y;
+  std::optional<LightSample> s =
+      area_sample(p, point, e.ng, e.offset, e.area, probability, material.double_sided);
+  if (!s) return s;
+  s->radiance = material.emission;
   if (material.emission_texture) {
     const Primitive& primitive = *e.part->primitive;
-    s.radiance = eval_emission(*scene_, material,
-                               interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
+    s->radiance = eval_emission(*scene_, material,
+                                interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
   }
   return s;
 }
 
-std::optional<LightSample> LightTable::sample_area(const AreaLight& light, const Vec3f& p,
+std::optional<LightSample> LightTable::sample_area(const AreaLight& light, float probability, const Vec3f& p,
                                                    const Vec2f& u) const {
   const Vec2f q = light.disk ? sample_disk(u) : Vec2f(2 * u.x - 1, 2 * u.y - 1);
   const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
-  LightSample s = area_sample(
-      p, light.center + light.half_x * q.x + light.half_y * q.y, light.normal,
-      plane_offset(max_component(abs(light.center) + abs(light.half_x) + abs(light.half_y))), area);
-  if (!usable(s.pdf) || s.wi.dot(light.normal) >= 0) return std::nullopt;
-  s.radiance = light.radiance;
+  const float extent = max_component(abs(light.center) + abs(light.half_x) + abs(light.half_y));
+  std::optional<LightSample> s = area_sample(p, light.center + light.half_x * q.x + light.half_y * q.y,
+                                             light.normal, plane_offset(extent), area, probability, false);
+  if (s) s->radiance = light.radiance;
   return s;
 }
 
-std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& light, const Vec3f& p) const {
+std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& light, float probability,
+                                                       const Vec3f& p) const {
   if (light.kind == LightKind::directional)
-    return LightSample{-light.direction, light.intensity, 1, true, true, p};
+    return LightSample{-light.direction, light.intensity, probability, true, true, p};
   const Vec3f to_light = light.position - p;
   const float distance2 = to_light.dot(to_light);
   // At the light itself the inverse square has no value.
@@ -179,7 +174,13 @@ std::optional<LightSample> LightTable::sample_punctual(const PunctualLight& ligh
     irradiance *= std::clamp(t, 0.0f, 1.0f) * std::clamp(t, 0.0f, 1.0f);
   }
   if (is_black(irradiance)) return std::nullopt;
-  return LightSample{wi, irradiance, 1, true, false, light.position};
+  return LightSample{wi, irradiance, probability, true, false, light.position};
+}
+
+std::optional<LightSample> LightTable::sample_environment(float probability, const Vec2f& u) const {
+  const EnvironmentSample e = environment_.sample(u);
+  if (!usable(e.pdf)) return std::nullopt;
+  return LightSample{e.wi, e.radiance, probability * e.pdf, false, true, e.wi};
 }
 
 float LightTable::pdf_triangle(const Hit& hit, float cosine) const {
@@ -194,8 +195,10 @@ float LightTable::pdf_area_light(const Hit& hit, float cosine) const {
   return choice(first_area_ + int(hit.triangle)) * hit.t * hit.t / (area * cosine);
 }
 
-float LightTable::pdf_environment(const Vec3f& d) const {
-  return choice(environment_index_) * environment_.pdf(d);
+EnvironmentSample LightTable::look_up_environment(const Vec3f& d) const {
+  EnvironmentSample s = environment_.look_up(d);
+  s.pdf *= choice(environment_index_);
+  return s;
 }
 
 }  // namespace parian

@@ -33,16 +33,17 @@ class LightTable {
   bool empty() const { return count_ == 0; }
   int size() const { return count_; }
 
-  /// Samples a light as seen from p. Nothing where the chosen light does not reach p.
-  std::optional<LightSample> sample(const Vec3f& p, Sampler& sampler) const;
+  /// Samples a light as seen from p, by u in [0,1)^2 and, where there are many lights, one more number of the
+  /// sampler. Nothing where the chosen light does not reach p.
+  std::optional<LightSample> sample(const Vec3f& p, Vec2f u, Sampler& sampler) const;
 
   /// Density per solid angle with which sample() from the origin of a ray of unit direction d finds the point
   /// of an emissive triangle that the ray hit, at distance hit.t; `cosine` is |d . ng| there.
   float pdf_triangle(const Hit& hit, float cosine) const;
   /// The same for area light `index`.
   float pdf_area_light(const Hit& hit, float cosine) const;
-  /// The same for a ray that left the scene.
-  float pdf_environment(const Vec3f& d) const;
+  /// What a ray that left the scene along unit direction d sees, and the density with which sample() finds d.
+  EnvironmentSample look_up_environment(const Vec3f& d) const;
 
   const EnvironmentLight& environment() const { return environment_; }
 
@@ -58,10 +59,14 @@ class LightTable {
   float power(const EmissiveTriangle& emitter) const;
   float power(const AreaLight& light) const;
   float power(const PunctualLight& light, float scene_radius) const;
-  std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, const Vec3f& p,
-                                             const Vec2f& u) const;
-  std::optional<LightSample> sample_area(const AreaLight& light, const Vec3f& p, const Vec2f& u) const;
-  std::optional<LightSample> sample_punctual(const PunctualLight& light, const Vec3f& p) const;
+  // Samples of one light, which was chosen with `probability`.
+  std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, float probability,
+                                             const Vec3f& p, const Vec2f& u) const;
+  std::optional<LightSample> sample_area(const AreaLight& light, float probability, const Vec3f& p,
+                                         const Vec2f& u) const;
+  std::optional<LightSample> sample_punctual(const PunctualLight& light, float probability,
+                                             const Vec3f& p) const;
+  std::optional<LightSample> sample_environment(float probability, const Vec2f& u) const;
   float choice(int light) const { return count_ == 1 ? 1 : distribution_.probability(light); }
 
   const Scene* scene_ = nullptr;

@@ -8,12 +8,16 @@ T interpolate(const SharedArray<T>& values, const Triangle& t, float u, float v)
   return values[t[0]] * (1 - u - v) + values[t[1]] * u + values[t[2]] * v;
 }
 
-/// Unit vector along v, whose square may leave the range of a float; `otherwise` where v has no direction.
-Vec3f direction_of(const Vec3f& v, const Vec3f& otherwise) {
-  const float length2 = v.dot(v);
-  if (length2 > 1e-30f && length2 < 1e30f) return v * (1 / std::sqrt(length2));
+[[gnu::cold, gnu::noinline]] Vec3f direction_of_extreme(const Vec3f& v, const Vec3f& otherwise) {
   const float largest = max_component(abs(v));
   return largest > 0 && largest < kInfinity ? normalize(v / largest) : otherwise;
+}
+
+/// Unit vector along v, whose square may leave the range of a float; `otherwise` where v has no direction.
+inline Vec3f direction_of(const Vec3f& v, const Vec3f& otherwise) {
+  const float length2 = v.dot(v);
+  if (length2 > 1e-30f && length2 < 1e30f) return v * (1 / std::sqrt(length2));
+  return direction_of_extreme(v, otherwise);
 }
 
 /// dp/du of the triangle in uv set `set`, world space; zero where the uvs are degenerate.

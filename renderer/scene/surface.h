@@ -10,9 +10,10 @@
 namespace parian {
 
 /// What a ray hit: triangle `triangle` of primitive `primitive` of placement `placement` at barycentric
-/// weights (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`.
+/// weights (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`; or, where it is
+/// kMiss, nothing.
 struct Hit {
-  static constexpr std::uint32_t kAreaLightHit = 0xffffffffu;
+  static constexpr std::uint32_t kAreaLightHit = 0xffffffffu, kMiss = 0xfffffffeu;
   float t, u, v;
   std::uint32_t placement, primitive, triangle;
 };

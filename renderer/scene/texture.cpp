@@ -15,18 +15,19 @@ struct SrgbTable {
   }
 };
 
+const SrgbTable kSrgb;
+
 /// Calls use(color, alpha) with the functions that decode colour and alpha element i of the image, so that
 /// the choice of the type is made once for all texels of a lookup.
 template <class Use>
 Vec4f with_decoder(const Image& image, ColorSpace space, const Use& use) {
-  static const SrgbTable table;
   const std::byte* data = image.pixels.data();
   switch (image.type) {
     case PixelType::u8: {
       const auto* p = reinterpret_cast<const std::uint8_t*>(data);
       const auto linear = [p](std::size_t i) { return float(p[i]) * (1.0f / 255); };
       if (space == ColorSpace::linear) return use(linear, linear);
-      return use([p](std::size_t i) { return table.value[p[i]]; }, linear);
+      return use([p](std::size_t i) { return kSrgb.value[p[i]]; }, linear);
     }
     case PixelType::u16: {
       const auto* p = reinterpret_cast<const std::uint16_t*>(data);
@@ -48,14 +49,33 @@ Vec4f with_decoder(const Image& image, ColorSpace space, const Use& use) {
   return Vec4f(0);
 }
 
+/// The pixel whose first element has index i.
 template <class Color, class Alpha>
-Vec4f decode(const Image& image, int x, int y, const Color& color, const Alpha& alpha) {
-  const std::size_t i = (std::size_t(y) * image.width + x) * image.channels;
+Vec4f decode(const Image& image, std::size_t i, const Color& color, const Alpha& alpha) {
   if (image.channels <= 2) {
     const float grey = color(i);
     return {grey, grey, grey, image.channels == 2 ? alpha(i + 1) : 1};
   }
   return {color(i), color(i + 1), color(i + 2), image.channels == 4 ? alpha(i + 3) : 1};
+}
+
+std::size_t element_index(const Image& image, int x, int y) {
+  return (std::size_t(y) * image.width + x) * image.channels;
+}
+
+/// The mean of the pixels whose first elements have the indices i, by weights w that sum to 1.
+template <class Color, class Alpha>
+Vec4f decode_mean(const Image& image, const std::array<std::size_t, 4>& i, const Vec4f& w, const Color& color,
+                  const Alpha& alpha) {
+  const auto mean = [&](const auto& decoder, int c) {
+    return decoder(i[0] + c) * w.x + decoder(i[1] + c) * w.y + decoder(i[2] + c) * w.z +
+           decoder(i[3] + c) * w.w;
+  };
+  if (image.channels <= 2) {
+    const float grey = mean(color, 0);
+    return {grey, grey, grey, image.channels == 2 ? mean(alpha, 1) : 1};
+  }
+  return {mean(color, 0), mean(color, 1), mean(color, 2), image.channels == 4 ? mean(alpha, 3) : 1};
 }
 
 int wrap_index(int i, int size, Wrap wrap) {
@@ -77,28 +97,45 @@ int wrap_index(int i, int size, Wrap wrap) {
 /// Texel coordinate u * size, bounded so that it fits an int whatever the mesh claims.
 float texel_coordinate(float u, int size) { return std::clamp(u * float(size), -1e9f, 1e9f); }
 
+int floor_to_int(float x) {
+  const int i = int(x);
+  return i - (float(i) > x);
+}
+
+/// Two neighbouring texels, of which the second counts `share`.
+struct Between {
+  int first, second;
+  float share;
+};
+
+Between between_texels(float x, int size, Wrap wrap) {
+  const int i = floor_to_int(x - 0.5f);
+  return {wrap_index(i, size, wrap), wrap_index(i + 1, size, wrap), x - 0.5f - float(i)};
+}
+
 }  // namespace
 
 Vec4f texel(const Image& image, int x, int y, ColorSpace space) {
-  return with_decoder(
-      image, space, [&](const auto& color, const auto& alpha) { return decode(image, x, y, color, alpha); });
+  return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
+    return decode(image, element_index(image, x, y), color, alpha);
+  });
 }
 
 Vec4f eval_texture(const Scene& scene, const Texture& texture, const Vec2f& uv, ColorSpace space) {
   const Image& image = scene.images[texture.image];
-  float x = texel_coordinate(uv.x, image.width), y = texel_coordinate(uv.y, image.height);
-  const auto column = [&](int i) { return wrap_index(i, image.width, texture.wrap_s); };
-  const auto row = [&](int j) { return wrap_index(j, image.height, texture.wrap_t); };
+  const float x = texel_coordinate(uv.x, image.width), y = texel_coordinate(uv.y, image.height);
   if (texture.filter == Filter::nearest)
-    return texel(image, column(int(std::floor(x))), row(int(std::floor(y))), space);
-  x -= 0.5f;
-  y -= 0.5f;
-  const float left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
-  const int x0 = column(int(left)), x1 = column(int(left) + 1), y0 = row(int(top)), y1 = row(int(top) + 1);
+    return texel(image, wrap_index(floor_to_int(x), image.width, texture.wrap_s),
+                 wrap_index(floor_to_int(y), image.height, texture.wrap_t), space);
+  const Between s = between_texels(x, image.width, texture.wrap_s),
+                t = between_texels(y, image.height, texture.wrap_t);
+  const std::array<std::size_t, 4> corners{
+      element_index(image, s.first, t.first), element_index(image, s.second, t.first),
+      element_index(image, s.first, t.second), element_index(image, s.second, t.second)};
+  const Vec4f weights((1 - s.share) * (1 - t.share), s.share * (1 - t.share), (1 - s.share) * t.share,
+                      s.share * t.share);
   return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
-    const auto at = [&](int i, int j) { return decode(image, i, j, color, alpha); };
-    return (at(x0, y0) * (1 - fx) + at(x1, y0) * fx) * (1 - fy) +
-           (at(x0, y1) * (1 - fx) + at(x1, y1) * fx) * fy;
+    return decode_mean(image, corners, weights, color, alpha);
   });
 }
 

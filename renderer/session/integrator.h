@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "renderer/accel/accel.h"
 #include "renderer/base/random.h"
@@ -31,15 +32,27 @@ struct RayCounts {
   }
 };
 
+/// One sample of one pixel: what an integrator is given, and what it makes of it.
+struct CameraPath {
+  // The camera ray, of unit direction, and what it meets (placement kMiss: nothing); the integrator may let
+  // them follow the path.
+  Ray ray;
+  Hit hit;
+  Sampler sampler;
+  Rgb radiance;       // black to begin with
+  Features features;  // of the first surface; of none, to begin with, where they are wanted
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// One unbiased sample of the radiance arriving along `ray` (unit direction), drawn from `sampler`. Fills
-  /// `features` of the first surface where it is not null, and counts the rays it traces. Called by many
-  /// threads at once.
-  virtual Rgb radiance(const TraceContext& context, const Ray& ray, Sampler& sampler, RayCounts& counts,
-                       Features* features) const = 0;
+  /// Gives each path one unbiased sample of the radiance arriving along its ray, drawn from its sampler;
+  /// fills in the features where they are `wanted`; counts the rays that it traces. The paths, one at least
+  /// and RayPacket::kSize at most, are those of neighbouring pixels: side by side, each step of theirs costs
+  /// less than one after the other. Called by many threads at once.
+  virtual void estimate(const TraceContext& context, std::span<CameraPath> paths, RayCounts& counts,
+                        bool features_wanted) const = 0;
 };
 
 }  // namespace parian

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "renderer/base/parallel.h"
+#include "renderer/session/camera_rays.h"
 
 namespace parian {
 namespace {
@@ -14,6 +15,12 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+// Camera rays are traced in packets of one sample of each pixel of a block. Blocks lie where they lie
+// whatever the tiles, and all their pixels have the same number of samples, so the packets are the same
+// however a render is cut.
+constexpr int kBlock = 4;
+static_assert(kBlock * kBlock == RayPacket::kSize);
 
 bool is_valid(const Rgb& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
 
@@ -119,7 +126,7 @@ void Session::render() {
 }
 
 void Session::render_pass(std::uint32_t target) {
-  const int size = settings_.tile_size;
+  const int size = (settings_.tile_size + kBlock - 1) / kBlock * kBlock;
   const int columns = (settings_.width + size - 1) / size, rows = (settings_.height + size - 1) / size;
   parallel_for(std::size_t(columns) * rows, 1, [&](std::size_t i) {
     const int x = int(i % columns) * size, y = int(i / columns) * size;
@@ -128,38 +135,61 @@ void Session::render_pass(std::uint32_t target) {
 }
 
 void Session::render_tile(const Tile& area, std::uint32_t target) {
-  if (cancel_ || out_of_time()) return;
-  const TraceContext context{*scene_, *world_, *accel_, *lights_};
+  if (out_of_time()) return;
   FilmTile tile = film_.checkout(area);
   RayCounts counts;
-  Features features;
-  std::size_t i = 0;
-  for (int y = area.y0; y < area.y1; ++y)
-    for (int x = area.x0; x < area.x1; ++x, ++i) {
-      if (cancel_.load(std::memory_order_relaxed)) return;
-      PixelSums& sums = tile.pixels[i];
-      while (sums.samples < target) {
-        Sampler sampler(settings_.sampler, settings_.seed, x, y, sums.samples);
-        const Vec2f film = Vec2f(float(x) + 0.5f, float(y) + 0.5f) + filter_.sample(sampler.next2());
-        const Ray ray = generate_ray(view_, film, view_.lens_radius > 0 ? sampler.next2() : Vec2f(0));
-        ++counts.camera;
-        if (!tile.features.empty()) features = {};
-        Rgb radiance =
-            integrator_->radiance(context, ray, sampler, counts, tile.features.empty() ? nullptr : &features);
-        if (!is_valid(radiance)) {
-          radiance = Rgb(0, 0, 0);
-          ++counts.dropped;
-        }
-        if (!tile.features.empty()) {
-          if (sums.samples == 0) sums.object = features.object;
-          add_features(tile.features[i], features);
-        }
-        sums.add(radiance);
-      }
+  for (int y = area.y0; y < area.y1; y += kBlock)
+    for (int x = area.x0; x < area.x1; x += kBlock) {
+      render_block(tile, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)}, target,
+                   counts);
+      if (cancel_.load(std::memory_order_relaxed)) return;  // the tile is given up
     }
   film_.merge(tile);
   const std::lock_guard lock(stats_mutex_);
   stats_.rays += counts;
+}
+
+void Session::render_block(FilmTile& tile, const Tile& block, std::uint32_t target, RayCounts& counts) const {
+  const TraceContext context{*scene_, *world_, *accel_, *lights_};
+  const bool features_wanted = !tile.features.empty();
+  const auto index = [&](int x, int y) {
+    return std::size_t(y - tile.area.y0) * (tile.area.x1 - tile.area.x0) + (x - tile.area.x0);
+  };
+  std::array<std::uint32_t, RayPacket::kSize> keys;
+  std::size_t count = 0;
+  for (int y = block.y0; y < block.y1; ++y)
+    for (int x = block.x0; x < block.x1; ++x) keys[count++] = Sampler::pixel_key(settings_.seed, x, y);
+  for (std::uint32_t sample = tile.pixels[index(block.x0, block.y0)].samples; sample < target; ++sample) {
+    if (cancel_.load(std::memory_order_relaxed)) return;
+    // The camera rays of one sample of each pixel, traced together.
+    std::array<CameraPath, RayPacket::kSize> paths;
+    for (std::size_t i = 0; i < count; ++i) {
+      paths[i].sampler = Sampler(settings_.sampler, keys[i], sample);
+      paths[i].radiance = Rgb(0, 0, 0);
+      if (features_wanted) paths[i].features = {};
+    }
+    RayPacket rays;
+    generate_rays(view_, filter_, block, {paths.data(), count}, rays);
+    std::array<Hit, RayPacket::kSize> hits;
+    accel_->intersect(rays, hits);
+    for (std::size_t i = 0; i < count; ++i) paths[i].hit = hits[i];
+    counts.camera += count;
+
+    integrator_->estimate(context, {paths.data(), count}, counts, features_wanted);
+
+    const CameraPath* path = paths.data();
+    for (int y = block.y0; y < block.y1; ++y)
+      for (int x = block.x0; x < block.x1; ++x, ++path) {
+        PixelSums& sums = tile.pixels[index(x, y)];
+        if (features_wanted) {
+          if (sums.samples == 0) sums.object = path->features.object;
+          add_features(tile.features[index(x, y)], path->features);
+        }
+        const bool valid = is_valid(path->radiance);
+        counts.dropped += !valid;
+        sums.add(valid ? path->radiance : Rgb(0, 0, 0));
+      }
+  }
 }
 
 void Session::update(std::shared_ptr<const Scene> scene, unsigned changed) {

@@ -25,7 +25,7 @@ struct RenderSettings {
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
   AccelSettings accel;
-  int tile_size = 16;
+  int tile_size = 16;  // pixels; rounded up to whole blocks of 4
 };
 
 /// What an edit touched, or-ed together.
@@ -84,6 +84,7 @@ class Session {
   void render();
   void render_pass(std::uint32_t target);
   void render_tile(const Tile& area, std::uint32_t target);
+  void render_block(FilmTile& tile, const Tile& block, std::uint32_t target, RayCounts& counts) const;
   bool out_of_time() const;
 
   std::shared_ptr<const Scene> scene_;

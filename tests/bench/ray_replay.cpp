@@ -1,9 +1,11 @@
 /// What the renderer costs on top of its rays: renders a scene on one thread, records every ray at the border
-/// to Embree (the linker wraps rtcIntersect1 and rtcOccluded1), and replays the same rays bare in the same
-/// order.
+/// to Embree (the linker wraps its queries), and replays the same rays bare in the same order: each by
+/// itself, as the shortest loop over rtcIntersect1 and rtcOccluded1 would trace them, and as they were
+/// traced, in packets where the renderer made packets.
 ///
 /// usage: ray_replay SCENE [SIZE] [SPP] [RUNS]
-/// Prints CPU microseconds per camera path of both, and their ratio, run by run (interleaved) and as medians.
+/// Prints CPU microseconds per camera path of the three, and the ratios, run by run (interleaved) and as
+/// medians.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,9 +21,12 @@
 
 namespace {
 
+constexpr int kPacket = 16;
+
 struct RecordedRay {
   float origin[3], direction[3], tfar;
   bool shadow;
+  std::uint8_t packet;  // of the first ray of a query: how many rays it had; 0: a query for this ray alone
 };
 
 RTCScene recorded_scene = nullptr;
@@ -30,34 +35,58 @@ std::vector<RecordedRay>* recorder = nullptr;
 void record(RTCScene scene, const RTCRay& r, bool shadow) {
   if (!recorder) return;
   recorded_scene = scene;
-  recorder->push_back({{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, shadow});
+  recorder->push_back({{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, shadow, 0});
+}
+
+void record(RTCScene scene, const int* valid, const RTCRay16& r, bool shadow) {
+  if (!recorder) return;
+  recorded_scene = scene;
+  const std::size_t first = recorder->size();
+  for (int i = 0; i < kPacket; ++i)
+    if (valid[i])
+      recorder->push_back(
+          {{r.org_x[i], r.org_y[i], r.org_z[i]}, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, r.tfar[i], shadow, 0});
+  (*recorder)[first].packet = std::uint8_t(recorder->size() - first);
 }
 
 }  // namespace
 
+// Embree 3 and 4 differ in what they are given besides scene and rays.
 extern "C" {
 #if RTC_VERSION_MAJOR >= 4
-void __real_rtcIntersect1(RTCScene, RTCRayHit*, RTCIntersectArguments*);
-void __real_rtcOccluded1(RTCScene, RTCRay*, RTCOccludedArguments*);
-void __wrap_rtcIntersect1(RTCScene scene, RTCRayHit* r, RTCIntersectArguments* a) {
-  record(scene, r->ray, false);
-  __real_rtcIntersect1(scene, r, a);
-}
-void __wrap_rtcOccluded1(RTCScene scene, RTCRay* r, RTCOccludedArguments* a) {
-  record(scene, *r, true);
-  __real_rtcOccluded1(scene, r, a);
-}
+#define WRAP(FUNCTION, RAYS, ARGUMENTS, SHADOW, RAY)              \
+  void __real_##FUNCTION(RTCScene, RAYS*, ARGUMENTS*);            \
+  void __wrap_##FUNCTION(RTCScene scene, RAYS* r, ARGUMENTS* a) { \
+    record(scene, RAY, SHADOW);                                   \
+    __real_##FUNCTION(scene, r, a);                               \
+  }
+#define WRAP16(FUNCTION, RAYS, ARGUMENTS, SHADOW, RAY)                              \
+  void __real_##FUNCTION(const int*, RTCScene, RAYS*, ARGUMENTS*);                  \
+  void __wrap_##FUNCTION(const int* valid, RTCScene scene, RAYS* r, ARGUMENTS* a) { \
+    record(scene, valid, RAY, SHADOW);                                              \
+    __real_##FUNCTION(valid, scene, r, a);                                          \
+  }
+WRAP(rtcIntersect1, RTCRayHit, RTCIntersectArguments, false, r->ray)
+WRAP(rtcOccluded1, RTCRay, RTCOccludedArguments, true, *r)
+WRAP16(rtcIntersect16, RTCRayHit16, RTCIntersectArguments, false, r->ray)
+WRAP16(rtcOccluded16, RTCRay16, RTCOccludedArguments, true, *r)
 #else
-void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
-void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
-void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* c, RTCRayHit* r) {
-  record(scene, r->ray, false);
-  __real_rtcIntersect1(scene, c, r);
-}
-void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* c, RTCRay* r) {
-  record(scene, *r, true);
-  __real_rtcOccluded1(scene, c, r);
-}
+#define WRAP(FUNCTION, RAYS, SHADOW, RAY)                                   \
+  void __real_##FUNCTION(RTCScene, RTCIntersectContext*, RAYS*);            \
+  void __wrap_##FUNCTION(RTCScene scene, RTCIntersectContext* c, RAYS* r) { \
+    record(scene, RAY, SHADOW);                                             \
+    __real_##FUNCTION(scene, c, r);                                         \
+  }
+#define WRAP16(FUNCTION, RAYS, SHADOW, RAY)                                                   \
+  void __real_##FUNCTION(const int*, RTCScene, RTCIntersectContext*, RAYS*);                  \
+  void __wrap_##FUNCTION(const int* valid, RTCScene scene, RTCIntersectContext* c, RAYS* r) { \
+    record(scene, valid, RAY, SHADOW);                                                        \
+    __real_##FUNCTION(valid, scene, c, r);                                                    \
+  }
+WRAP(rtcIntersect1, RTCRayHit, false, r->ray)
+WRAP(rtcOccluded1, RTCRay, true, *r)
+WRAP16(rtcIntersect16, RTCRayHit16, false, r->ray)
+WRAP16(rtcOccluded16, RTCRay16, true, *r)
 #endif
 }
 
@@ -87,23 +116,71 @@ RTCRay to_ray(const RecordedRay& r) {
   return ray;
 }
 
-/// Traces all rays; returns CPU seconds. Hits are counted so that nothing can be optimised away.
-double replay(const std::vector<RecordedRay>& rays, std::size_t& hits) {
+void trace_alone(const RecordedRay& r, std::size_t& hits) {
+  EmbreeContext context;
+  init_context(context, false);
+  if (r.shadow) {
+    RTCRay ray = to_ray(r);
+    embree_occluded(recorded_scene, ray, context);
+    hits += ray.tfar < 0;
+  } else {
+    RTCRayHit hit;
+    hit.ray = to_ray(r);
+    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(recorded_scene, hit, context);
+    hits += hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+/// Traces all rays, each by itself; returns CPU seconds. Hits are counted so that nothing can be optimised
+/// away.
+double replay_alone(const std::vector<RecordedRay>& rays, std::size_t& hits) {
   const double start = cpu_seconds();
-  for (const RecordedRay& r : rays) {
-    EmbreeContext context;
-    init_context(context);
-    if (r.shadow) {
-      RTCRay ray = to_ray(r);
-      embree_occluded(recorded_scene, ray, context);
-      hits += ray.tfar < 0;
-    } else {
-      RTCRayHit hit;
-      hit.ray = to_ray(r);
-      hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      embree_intersect(recorded_scene, hit, context, false);
-      hits += hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  for (const RecordedRay& r : rays) trace_alone(r, hits);
+  return cpu_seconds() - start;
+}
+
+void set_lane(RTCRay16& ray, int i, const RecordedRay& r) {
+  ray.org_x[i] = r.origin[0];
+  ray.org_y[i] = r.origin[1];
+  ray.org_z[i] = r.origin[2];
+  ray.dir_x[i] = r.direction[0];
+  ray.dir_y[i] = r.direction[1];
+  ray.dir_z[i] = r.direction[2];
+  ray.tnear[i] = 0;
+  ray.tfar[i] = r.tfar;
+  ray.time[i] = 0;
+  ray.mask[i] = 0xffffffffu;
+  ray.id[i] = ray.flags[i] = 0;
+}
+
+/// Traces all rays in the queries that the renderer made; returns CPU seconds.
+double replay_as_traced(const std::vector<RecordedRay>& rays, std::size_t& hits) {
+  const double start = cpu_seconds();
+  for (std::size_t next = 0; next < rays.size();) {
+    const RecordedRay* r = &rays[next];
+    if (r->packet == 0) {
+      trace_alone(*r, hits);
+      ++next;
+      continue;
     }
+    EmbreeContext context;
+    init_context(context, !r->shadow);
+    alignas(64) int valid[kPacket];
+    RTCRayHit16 packet;
+    for (int i = 0; i < kPacket; ++i) {
+      valid[i] = i < r->packet ? -1 : 0;
+      set_lane(packet.ray, i, r[std::min(i, r->packet - 1)]);
+      packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (r->shadow) {
+      embree_occluded(recorded_scene, valid, packet.ray, context);
+      for (int i = 0; i < r->packet; ++i) hits += packet.ray.tfar[i] < 0;
+    } else {
+      embree_intersect(recorded_scene, valid, packet, context);
+      for (int i = 0; i < r->packet; ++i) hits += packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    }
+    next += r->packet;
   }
   return cpu_seconds() - start;
 }
@@ -148,18 +225,20 @@ int main(int argc, char** argv) {
 
   const double paths = double(size) * size * spp;
   std::size_t hits = 0;
-  std::vector<double> render_times, replay_times, ratios;
+  std::vector<double> times[3], ratios[2];
   for (int i = 0; i < runs; ++i) {
-    render_times.push_back(render() / paths * 1e6);
-    replay_times.push_back(replay(rays, hits) / paths * 1e6);
-    ratios.push_back(render_times.back() / replay_times.back());
-    fmt::print("run {}: render {:.3f} us, replay {:.3f} us, ratio {:.3f}\n", i + 1, render_times.back(),
-               replay_times.back(), ratios.back());
+    times[0].push_back(render() / paths * 1e6);
+    times[1].push_back(replay_alone(rays, hits) / paths * 1e6);
+    times[2].push_back(replay_as_traced(rays, hits) / paths * 1e6);
+    for (int k = 0; k < 2; ++k) ratios[k].push_back(times[0].back() / times[k + 1].back());
+    fmt::print("run {}: render {:.3f} us, replay {:.3f} us, as traced {:.3f} us, ratios {:.3f} {:.3f}\n",
+               i + 1, times[0].back(), times[1].back(), times[2].back(), ratios[0].back(), ratios[1].back());
   }
   fmt::print(
-      "median: render {:.3f} us, replay {:.3f} us per camera path, ratio {:.3f}; {:.2f} rays per path, "
-      "{:.1f}% hit\n",
-      median(render_times), median(replay_times), median(ratios), double(rays.size()) / paths,
-      100.0 * double(hits) / (double(rays.size()) * runs));
+      "median: render {:.3f} us, replay {:.3f} us, as traced {:.3f} us per camera path, ratios {:.3f} "
+      "{:.3f}; "
+      "{:.2f} rays per path, {:.1f}% hit\n",
+      median(times[0]), median(times[1]), median(times[2]), median(ratios[0]), median(ratios[1]),
+      double(rays.size()) / paths, 100.0 * double(hits) / (double(rays.size()) * 2 * runs));
   return 0;
 }

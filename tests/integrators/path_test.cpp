@@ -217,8 +217,10 @@ TEST(Path, StretchedPlacementsMatchBakedMeshes) {
       return scene;
     };
     for (const Strategy s : {Strategy::mis, Strategy::light}) {
-      const Picture a = render(make(true), independent_settings(64, 64, 32), with(s, 2));
-      const Picture b = render(make(false), independent_settings(64, 64, 32), with(s, 2));
+      // Sampling the light alone has rare bright samples where the emitter comes near the floor.
+      const int spp = s == Strategy::light && emits ? 512 : 64;
+      const Picture a = render(make(true), independent_settings(64, spp, 32), with(s, 2));
+      const Picture b = render(make(false), independent_settings(64, spp, 32), with(s, 2));
       for (int k = 0; k < 3; ++k) {
         const Mean ma = mean_of(a, k), mb = mean_of(b, k);
         if (emits) {

@@ -32,7 +32,8 @@ TEST(Bsdf, LetsNoLightThroughBetweenTheNormals) {
   for (const Bsdf::AnyLobe& lobe : kLobes)
     for (const float side : {1.0f, -1.0f}) {
       const Vec3f wo = normalize(Vec3f(0.5f, 0.1f, 0.8f)) * side;
-      const Bsdf bsdf(make_test_surface(ng, ns, wo), lobe);
+      const Surface surface = make_test_surface(ng, ns, wo);
+      const Bsdf bsdf(surface, lobe);
       // Above the shading plane, below the surface; and the other way round.
       const Vec3f leaking = normalize(Vec3f(1, 0, -0.3f)) * side,
                   hidden = normalize(Vec3f(-1, 0, 0.3f)) * side;
@@ -62,7 +63,8 @@ TEST(Bsdf, SamplesWithItsDensityInTheWorld) {
   for (const Bsdf::AnyLobe& lobe : kLobes)
     for (const float side : {1.0f, -1.0f}) {
       const Vec3f wo = normalize(ng + Vec3f(0.2f, 0.5f, 0)) * side;
-      const Bsdf bsdf(make_test_surface(ng, ns, wo), lobe);
+      const Surface surface = make_test_surface(ng, ns, wo);
+      const Bsdf bsdf(surface, lobe);
       TestRandom random(2);
       const auto sample = [&]() -> std::optional<Vec3f> {
         const float u = random.next1();

@@ -166,5 +166,30 @@ TEST(Distribution2D, NeverChoosesACellOfWeightZero) {
   }
 }
 
+// The guide table against a walk along the sums: equal weights, few that are large, one that holds nearly
+// all, ends that have none. Caught: the guide of the next step, one that is short of its last entry, a walk
+// past the last index.
+TEST(Distribution1D, FindsTheIndexOfAWalkAlongTheSums) {
+  TestRandom random(11);
+  for (const int size : {1, 2, 7, 8, 9, 10, 100, 1000, 3001})
+    for (const float power : {0.0f, 1.0f, 12.0f}) {
+      std::vector<float> weights(size);
+      for (float& w : weights) w = random.next1() < 0.2f ? 0 : std::pow(random.next1(), power);
+      weights[size / 2] = power > 2 ? 1e6f : 1;
+      const Distribution1D d(weights);
+      std::vector<double> sums(1, 0);
+      for (int i = 0; i < size; ++i) sums.push_back(sums.back() + d.probability(i));
+      for (int i = 0; i < 5000; ++i) {
+        const float u = i == 0 ? 0 : i == 1 ? 0x1.fffffep-1f : i < 500 ? float(i) / 500 : random.next1();
+        const Distribution1D::Sample s = d.sample(u);
+        ASSERT_TRUE(s.index >= 0 && s.index < size);
+        ASSERT_GT(s.probability, 0);
+        // The sums are floats, and this test's are made of their differences.
+        ASSERT_LE(sums[s.index], u + 1e-6) << size << " " << u;
+        ASSERT_GE(sums[s.index + 1], u - 1e-6) << size << " " << u;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace parian

@@ -83,5 +83,20 @@ TEST(ErrorGamma, BoundsRoundedSums) {
   EXPECT_LT(error_gamma(8), 8.001f * 0x1p-24f);
 }
 
+// Caught: a quadrant exchanged, a coefficient that lost its last digits.
+TEST(AngleOf, IsTheArcTangentInEveryQuadrant) {
+  TestRandom random(5);
+  for (int i = 0; i < 200000; ++i) {
+    const float size = std::pow(10.0f, 40 * random.next1() - 20);
+    const Vec2f p = (random.next2() * 2 - Vec2f(1)) * size;
+    ASSERT_NEAR(angle_of(p.x, p.y), std::atan2(double(p.y), double(p.x)), 4e-7) << p.x << " " << p.y;
+  }
+  EXPECT_EQ(angle_of(0, 0), 0);
+  EXPECT_NEAR(angle_of(-1, 0), kPi, 4e-7);
+  EXPECT_NEAR(angle_of(-1, -0.0f), -kPi, 4e-7);
+  EXPECT_NEAR(angle_of(0, -3), -kPi / 2, 4e-7);
+  EXPECT_NEAR(angle_of(2, 2), kPi / 4, 4e-7);
+}
+
 }  // namespace
 }  // namespace parian

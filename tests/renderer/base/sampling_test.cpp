@@ -145,5 +145,14 @@ TEST(PowerHeuristic, NeitherOverflowsNorUnderflows) {
   }
 }
 
+// Also where a square would overflow or vanish (GT 48).
+TEST(PowerHeuristic, OverTheDensityIsOneDivisionLess) {
+  for (const float a : {1e-25f, 1e-3f, 1.0f, 7.5f, 1e12f, 1e30f})
+    for (const float b : {0.0f, 1e-25f, 1e-3f, 1.0f, 3.0f, 1e12f, 1e30f}) {
+      const double expected = 1 / (double(a) + double(b) * double(b) / double(a));
+      ASSERT_NEAR(power_heuristic_over_pdf(a, b) / expected, 1, expected > 1e-37 ? 1e-6 : 1) << a << " " << b;
+    }
+}
+
 }  // namespace
 }  // namespace parian

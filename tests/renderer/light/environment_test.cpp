@@ -97,17 +97,16 @@ TEST(EnvironmentLight, SamplesWithItsDensity) {
     constexpr int kSamples = 200000;
     int differ = 0;
     const auto sample = [&]() -> std::optional<Vec3f> {
-      float pdf;
-      const Vec3f w = sky.sample(random.next2(), pdf);
+      const auto [w, radiance, pdf] = sky.sample(random.next2());
       EXPECT_NEAR(w.length(), 1, 1e-5);
       if (!(pdf > 0)) return std::nullopt;
-      differ += std::abs(sky.pdf(w) - pdf) > 1e-3f * pdf;
+      differ += std::abs(sky.look_up(w).pdf - pdf) > 1e-3f * pdf;
       return w;
     };
     const Vec3f axis = normalize(Vec3f(0.3f, 0.5f, 0.8f));
     const SphereCells cells{.axis = axis, .rings = 16, .sectors = 16, .tolerance = 1e-6};
     EXPECT_TRUE(samples_directions(
-        sample, [&](const Vec3f& w) { return sky.pdf(w); }, cells, kSamples, 3, 1));
+        sample, [&](const Vec3f& w) { return sky.look_up(w).pdf; }, cells, kSamples, 3, 1));
     // Rounding may put w into the next texel. Catches a polar angle by an arc cosine of y, too: 30 would
     // differ.
     EXPECT_LE(differ, 2);
@@ -123,13 +122,12 @@ TEST(EnvironmentLight, WithoutImageIsUniform) {
   EXPECT_NEAR(sky.mean_luminance(), luminance({1, 2, 3}), 1e-6);
   TestRandom random(2);
   const auto sample = [&]() -> std::optional<Vec3f> {
-    float pdf;
-    const Vec3f w = sky.sample(random.next2(), pdf);
-    EXPECT_EQ(pdf, sky.pdf(w));
+    const auto [w, radiance, pdf] = sky.sample(random.next2());
+    EXPECT_EQ(pdf, sky.look_up(w).pdf);
     return w;
   };
   EXPECT_TRUE(samples_directions(
-      sample, [&](const Vec3f& w) { return sky.pdf(w); }, {}, 100000, 1, 1));
+      sample, [&](const Vec3f& w) { return sky.look_up(w).pdf; }, {}, 100000, 1, 1));
 }
 
 // Where the interpolated image shines, the density is above zero: what one bright texel spreads to its
@@ -143,7 +141,7 @@ TEST(EnvironmentLight, CanSampleEveryDirectionThatShines) {
     const Vec3f w = random.direction();
     if (is_black(sky.eval(w))) continue;
     ++shining;
-    ASSERT_GT(sky.pdf(w), 0);
+    ASSERT_GT(sky.look_up(w).pdf, 0);
   }
   EXPECT_GT(shining, 1000);
 }
@@ -163,8 +161,7 @@ Statistics plate(const EnvironmentLight& sky, const Vec3f& n, int samples, std::
   TestRandom random(seed);
   Statistics s;
   for (int i = 0; i < samples; ++i) {
-    float pdf;
-    const Vec3f w = sky.sample(random.next2(), pdf);
+    const auto [w, radiance, pdf] = sky.sample(random.next2());
     s.add(pdf > 0 ? sky.eval(w).x * std::max(0.0f, w.dot(n)) * kInvPi / pdf : 0);
   }
   return s;
@@ -209,10 +206,9 @@ TEST(EnvironmentLight, BlackIsHarmless) {
   TestRandom random(8);
   EXPECT_EQ(sky.mean_luminance(), 0);
   for (int i = 0; i < 1000; ++i) {
-    float pdf;
-    const Vec3f w = sky.sample(random.next2(), pdf);
+    const auto [w, radiance, pdf] = sky.sample(random.next2());
     ASSERT_TRUE(is_finite(w) && std::isfinite(pdf) && pdf >= 0 && is_black(sky.eval(w)));
-    ASSERT_TRUE(std::isfinite(sky.pdf(random.direction())));
+    ASSERT_TRUE(std::isfinite(sky.look_up(random.direction()).pdf));
   }
 }
 
@@ -222,13 +218,12 @@ TEST(EnvironmentLight, StaysFiniteAtThePolesAndTheSeam) {
   for (const Vec3f& w :
        {Vec3f(0, 1, 0), Vec3f(0, -1, 0), Vec3f(-1, 0, 0), Vec3f(-1, 0, -0.0f), Vec3f(1e-20f, 1, 0)}) {
     EXPECT_TRUE(is_finite(sky.eval(w)));
-    EXPECT_TRUE(std::isfinite(sky.pdf(w)) && sky.pdf(w) >= 0);
+    EXPECT_TRUE(std::isfinite(sky.look_up(w).pdf) && sky.look_up(w).pdf >= 0);
   }
   for (const float x : {0.0f, 0x1.fffffep-1f})
     for (const float y : {0.0f, 0x1.fffffep-1f}) {
-      float pdf;
-      EXPECT_TRUE(is_finite(sky.sample({x, y}, pdf)));
-      EXPECT_TRUE(std::isfinite(pdf) && pdf >= 0);
+      const EnvironmentSample s = sky.sample({x, y});
+      EXPECT_TRUE(is_finite(s.wi) && is_finite(s.radiance) && std::isfinite(s.pdf) && s.pdf >= 0);
     }
 }
 

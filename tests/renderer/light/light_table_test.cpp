@@ -26,7 +26,7 @@ struct LitScene {
 std::optional<LightSample> sample(const LitScene& lit, const Vec3f& p, std::uint32_t i,
                                   std::uint32_t seed = 1) {
   Sampler sampler(SamplerKind::independent, seed, 0, 0, i);
-  return lit.table.sample(p, sampler);
+  return lit.table.sample(p, sampler.next2(), sampler);
 }
 
 Light make_light(LightKind kind, float intensity = 1) {
@@ -93,7 +93,9 @@ void for_each_light_on_ray(const LitScene& lit, const Vec3f& p, const Vec3f& d,
     visit(light.radiance,
           lit.table.pdf_area_light({float(hit->x), 0, 0, Hit::kAreaLightHit, 0, k}, -d.dot(light.normal)));
   }
-  if (!lit.table.environment().black()) visit(lit.table.environment().eval(d), lit.table.pdf_environment(d));
+  if (lit.table.environment().black()) return;
+  const EnvironmentSample sky = lit.table.look_up_environment(d);
+  visit(sky.radiance, sky.pdf);
 }
 
 float pdf_on_ray(const LitScene& lit, const Vec3f& p, const Vec3f& d) {
@@ -429,7 +431,7 @@ TEST(LightTable, WeighsTheSkyBySizeOfTheScene) {
   add_light(scene, make_light(LightKind::point, 25 * kPi), {});
   const LitScene lit(scene);
   // Radius 5: sky 4 pi^2 25, directional 4 pi pi 25, point 4 pi 25 pi.
-  EXPECT_NEAR(lit.table.pdf_environment({0, 1, 0}), 1 / (4 * kPiD) / 3, 1e-6);
+  EXPECT_NEAR(lit.table.look_up_environment({0, 1, 0}).pdf, 1 / (4 * kPiD) / 3, 1e-6);
 }
 
 // --- Degenerate lights (GT 57) ---

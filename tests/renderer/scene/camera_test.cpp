@@ -59,9 +59,9 @@ TEST(Camera, PixelsAreSquare) {
   camera.aspect = 3;
   for (const auto& [width, height] : {std::pair(640, 480), {100, 100}, {90, 160}}) {
     const CameraView view = make_view(camera, width, height);
-    const Vec3f center = at_depth(view, generate_ray(view, {float(width) / 2, float(height) / 2}, {}), 1);
-    const Vec3f right = at_depth(view, generate_ray(view, {float(width) / 2 + 1, float(height) / 2}, {}), 1);
-    const Vec3f down = at_depth(view, generate_ray(view, {float(width) / 2, float(height) / 2 + 1}, {}), 1);
+    const Vec3f center = at_depth(view, generate_ray(view, {float(width) / 2, float(height) / 2}), 1);
+    const Vec3f right = at_depth(view, generate_ray(view, {float(width) / 2 + 1, float(height) / 2}), 1);
+    const Vec3f down = at_depth(view, generate_ray(view, {float(width) / 2, float(height) / 2 + 1}), 1);
     const float pixel = 2 * std::tan(0.35f) / float(height);
     expect_near(right - center, {pixel, 0, 0}, 1e-6f);
     expect_near(down - center, {0, -pixel, 0}, 1e-6f);
@@ -73,7 +73,7 @@ TEST(Camera, PixelsAreSquare) {
 TEST(Camera, ASphereHasItsPerspectiveRadius) {
   const CameraView view = make_view(perspective(kPi / 3), 400, 300);
   const auto distance_to_center = [&](const Vec2f& film) {
-    const Ray ray = generate_ray(view, film, {});
+    const Ray ray = generate_ray(view, film);
     return ray.d.cross(Vec3f(0, 0, -3) - ray.o).length();
   };
   EXPECT_NEAR(distance_to_center({200, 150 + 150 * 0.612372f}), 1, 2e-6);
@@ -111,7 +111,7 @@ TEST(Camera, StandsWhereItsNodeIs) {
     ASSERT_NEAR(ray.o.x, 1, 1e-6) << "the lens is across the view";
     ASSERT_EQ(ray.tmax, kInfinity);
   }
-  expect_near(generate_ray(make_view(perspective(1), 100, 100, t), {50, 50}, {}).d, {-1, 0, 0});
+  expect_near(generate_ray(make_view(perspective(1), 100, 100, t), {50, 50}).d, {-1, 0, 0});
 }
 
 // GT 13: E[r] = 2 R / 3, a quarter within R / 2. Catches r = R u.
@@ -143,7 +143,7 @@ TEST(Lens, FocusesOnAPlane) {
                    pinhole = make_view(perspective(1), 160, 90, pose);
   TestRandom random(3);
   for (const Vec2f& film : {Vec2f(80, 45), Vec2f(0, 0), Vec2f(155, 10)}) {
-    const Vec3f focus = at_depth(pinhole, generate_ray(pinhole, film, {}), 2);
+    const Vec3f focus = at_depth(pinhole, generate_ray(pinhole, film), 2);
     for (int i = 0; i < 100; ++i)
       expect_near(at_depth(view, generate_ray(view, film, random.next2()), 2), focus, 5e-6f);
   }

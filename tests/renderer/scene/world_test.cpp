@@ -284,8 +284,9 @@ float image_offset(const CameraView& view, const Vec3f& p) {
   const Vec3f d = p - m.origin;
   const float depth = -d.dot(m.z);
   EXPECT_GT(depth, 0);
-  return std::max(std::abs(d.dot(m.x)) / (depth * view.half_width),
-                  std::abs(d.dot(m.y)) / (depth * view.half_height));
+  // The corner of the image, on the plane at distance 1.
+  return std::max(std::abs(d.dot(m.x)) / (depth * std::abs(view.corner.dot(m.x))),
+                  std::abs(d.dot(m.y)) / (depth * std::abs(view.corner.dot(m.y))));
 }
 
 // Whatever its size and place, the scene is in the picture and fills a good part of it.

@@ -268,19 +268,10 @@ TEST(Session, TimeLimitEndsTheRender) {
 /// Gives each sample of a pixel another kind of number.
 class BrokenIntegrator final : public Integrator {
  public:
-  Rgb radiance(const TraceContext&, const Ray&, Sampler& sampler, RayCounts&, Features*) const override {
-    switch (int(sampler.next1() * 5)) {
-      case 0:
-        return {std::numeric_limits<float>::quiet_NaN(), 1, 1};
-      case 1:
-        return {1, kInfinity, 1};
-      case 2:
-        return {1, 1, -1e-3f};
-      case 3:
-        return {1, 1, -kInfinity};
-      default:
-        return {5, 5, 5};
-    }
+  void estimate(const TraceContext&, std::span<CameraPath> paths, RayCounts&, bool) const override {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const Rgb kinds[5] = {{kNan, 1, 1}, {1, kInfinity, 1}, {1, 1, -1e-3f}, {1, 1, -kInfinity}, {5, 5, 5}};
+    for (CameraPath& path : paths) path.radiance = kinds[int(path.sampler.next1() * 5)];
   }
 };
 
@@ -307,7 +298,7 @@ TEST(Session, DropsWhatIsNotARadianceAndCountsIt) {
 
 class ThrowingIntegrator final : public Integrator {
  public:
-  Rgb radiance(const TraceContext&, const Ray&, Sampler&, RayCounts&, Features*) const override {
+  void estimate(const TraceContext&, std::span<CameraPath>, RayCounts&, bool) const override {
     throw std::runtime_error("no radiance");
   }
 };
