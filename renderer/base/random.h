@@ -106,8 +106,8 @@ class Sampler {
   SamplerKind kind_;
 };
 
-/// next2(), and next2() again, of each of the samplers, which are of one kind: side by side at a third of the
-/// price.
+/// next2(), and next2() again, of each of the samplers, which are of one kind: side by side. With AVX2, 8 or
+/// 16 Sobol samplers cost a third (9 ns each instead of 27); without it the same as one by one.
 void next2_twice(std::span<Sampler* const> samplers, Vec2f* first, Vec2f* second);
 
 }  // namespace parian
