@@ -106,8 +106,10 @@ class Tracer {
     const Material& material = *surface.part->material;
     if (!surface.front && !material.double_sided) return Rgb(0, 0, 0);
     const float cosine = std::abs(path.ray().d.dot(surface.ng));
-    const float competing =
-        path.pdf == kInfinity || cosine == 0 ? 0 : context_.lights.pdf_triangle(path.hit(), cosine);
+    float competing = 0;
+    if (path.pdf != kInfinity && cosine != 0)
+      competing = path.hit().is_solid() ? context_.lights.pdf_solid(path.hit(), path.ray().o, cosine)
+                                        : context_.lights.pdf_triangle(path.hit(), cosine);
     return eval_emission(context_.scene, material, surface.uvs) * hit_weight(path, competing);
   }
 

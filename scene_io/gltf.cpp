@@ -17,6 +17,7 @@ Scene load_gltf(const std::string& path, std::vector<std::string>& warnings) {
   read_meshes(document, accessors, scene, notes);
   read_cameras(document, scene, notes);
   read_lights(document, scene);
+  read_shapes(document, scene);
   read_nodes(document, accessors, scene, notes);
   validate(scene, path);
   return scene;

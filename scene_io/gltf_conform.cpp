@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <set>
 
 #include "renderer/base/error.h"
@@ -75,14 +78,47 @@ void check_relations(const nlohmann::json& document, const std::string& file) {
   }
 }
 
+/// What KHR_implicit_shapes asks of a shape of one of its own types.
+void check_shape(const nlohmann::json& shape, const std::string& where, const std::string& file) {
+  constexpr std::array kTypes = {"sphere", "box", "cylinder", "capsule", "plane"};
+  const auto& type = shape["type"].get_ref<const std::string&>();
+  if (std::ranges::find(kTypes, type) == kTypes.end()) return;
+  for (const char* key : kTypes) {
+    const std::string place = fmt::format("{}/{}", where, key);
+    if (key == type && !shape.contains(key)) {
+      throw InputError(file, place, "expected an object, since type says so");
+    }
+    if (key != type && shape.contains(key)) {
+      throw InputError(file, place, fmt::format("expected no such member, since type is {}", type));
+    }
+  }
+  if (type != "cylinder" && type != "capsule") return;
+  const double bottom = shape[type].value("radiusBottom", 0.25), top = shape[type].value("radiusTop", 0.25);
+  if (std::max(bottom, top) < std::numeric_limits<float>::min()) {
+    throw InputError(file, fmt::format("{}/{}/radiusTop", where, type),
+                     "expected a number above 0, since radiusBottom is 0");
+  }
+}
+
+/// Here and not on tinygltf's model, which lacks the empty objects that stand for shapes of the default size.
+void check_shapes(const nlohmann::json& document, const std::string& file) {
+  const std::string where = "/extensions/KHR_implicit_shapes/shapes";
+  const nlohmann::json::json_pointer pointer(where);
+  if (!document.contains(pointer)) return;
+  const nlohmann::json& shapes = document[pointer];
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    check_shape(shapes[i], fmt::format("{}/{}", where, i), file);
+}
+
 }  // namespace
 
 bool reads_extension(const std::string& name) {
   static const std::set<std::string> names = {
       "EXT_camera_physical",     "EXT_lights_area",       "EXT_lights_environment",
-      "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_lights_punctual",
-      "KHR_materials_ior",       "KHR_materials_unlit",   "KHR_materials_emissive_strength",
-      "KHR_mesh_quantization",   "KHR_texture_transform", "KHR_materials_specular"};
+      "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_implicit_shapes",
+      "KHR_lights_punctual",     "KHR_materials_ior",     "KHR_materials_unlit",
+      "KHR_materials_specular",  "KHR_mesh_quantization", "KHR_materials_emissive_strength",
+      "KHR_texture_transform",   "PARIAN_shape"};
   return names.contains(name);
 }
 
@@ -94,6 +130,7 @@ void conform(nlohmann::json& document, const std::string& file) {
   check_fields(document, document_fields(), file);
   check_version(document["asset"], file);
   check_relations(document, file);
+  check_shapes(document, file);
 }
 
 }  // namespace parian

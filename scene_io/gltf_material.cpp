@@ -168,6 +168,12 @@ void read_environment(const GltfDocument& document, TextureTable& textures, Scen
 
 }  // namespace
 
+int default_material(const GltfDocument& document, Scene& scene) {
+  const std::size_t index = document.model.materials.size();
+  if (scene.materials.size() == index) scene.materials.emplace_back().name = "default";
+  return int(index);
+}
+
 void read_materials(const GltfDocument& document, Scene& scene, Warnings& warnings) {
   TextureTable textures(document, scene, warnings);
   for (const auto& source : document.model.materials)

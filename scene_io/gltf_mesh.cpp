@@ -72,7 +72,6 @@ bool is_drawn(const tinygltf::Primitive& source, Warnings& warnings) {
 }  // namespace
 
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings) {
-  int default_material = kNone;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
     const tinygltf::Mesh& source = document.model.meshes[m];
     Mesh mesh{.name = source.name, .primitives = {}};
@@ -80,13 +79,7 @@ void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene&
       const std::string where = fmt::format("/meshes/{}/primitives/{}", m, p);
       if (!is_drawn(source.primitives[p], warnings)) continue;
       Primitive primitive = read_primitive(document, accessors, source.primitives[p], where);
-      if (primitive.material == kNone) {
-        if (default_material == kNone) {
-          default_material = int(scene.materials.size());
-          scene.materials.emplace_back().name = "default";
-        }
-        primitive.material = default_material;
-      }
+      if (primitive.material == kNone) primitive.material = default_material(document, scene);
       mesh.primitives.push_back(std::move(primitive));
     }
     scene.meshes.push_back(std::move(mesh));

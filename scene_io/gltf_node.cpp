@@ -102,9 +102,13 @@ Node read_node(const tinygltf::Node& source, const GltfDocument& document, Acces
   if (const auto* light = find_extension(source.extensions, "KHR_lights_punctual")) {
     node.light = index_or_none(*light, "light");
   }
+  if (const auto* shape = find_extension(source.extensions, "PARIAN_shape")) {
+    node.shape = index_or_none(*shape, "shape");
+    node.shape_material = index_or_none(*shape, "material");
+  }
   if (source.skin >= 0) warnings.add("skins are not applied: the mesh is drawn in its rest pose");
   const auto* instancing = find_extension(source.extensions, "EXT_mesh_gpu_instancing");
-  if (instancing && node.mesh != kNone) {
+  if (instancing && (node.mesh != kNone || node.shape != kNone)) {
     const std::string place = where + "/extensions/EXT_mesh_gpu_instancing/attributes";
     node.instances = read_instances(*instancing, document, accessors, place);
   }
@@ -138,6 +142,9 @@ void read_nodes(const GltfDocument& document, AccessorReader& accessors, Scene& 
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
     const tinygltf::Node& source = document.model.nodes[i];
     Node node = read_node(source, document, accessors, fmt::format("/nodes/{}", i), warnings);
+    if (node.shape != kNone && node.shape_material == kNone) {
+      node.shape_material = default_material(document, scene);
+    }
     if (const auto* area = find_extension(source.extensions, "EXT_lights_area")) {
       const int light = first_area_light + index_or_none(*area, "light");
       if (node.light == kNone) {

@@ -12,10 +12,13 @@ namespace parian {
 /// Materials with the textures and images that they and the environment use. Images are decoded in parallel.
 void read_materials(const GltfDocument& document, Scene& scene, Warnings& warnings);
 
+/// The material of what has none: one for the whole file, after those of the file, appended at its first use.
+int default_material(const GltfDocument& document, Scene& scene);
+
 /// Decodes the images that `used` names (indices into the document's images), in that order.
 std::vector<Image> read_images(const GltfDocument& document, const std::vector<int>& used);
 
-/// Triangle meshes. Primitives without material get one default material, appended to the scene's.
+/// Triangle meshes. Primitives without material get the default one.
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
 
 /// Triangles of glTF mode 4 (list), 5 (strip) or 6 (fan), of `indices` or of all vertices where that is
@@ -34,7 +37,11 @@ void read_cameras(const GltfDocument& document, Scene& scene, Warnings& warnings
 /// Punctual lights, then area lights.
 void read_lights(const GltfDocument& document, Scene& scene);
 
-/// Nodes, and as roots those of the default scene.
+/// Shapes. One that Parian cannot draw is refused where a node draws it; else it may be there for another
+/// extension's use, and a default shape takes its place.
+void read_shapes(const GltfDocument& document, Scene& scene);
+
+/// Nodes, and as roots those of the default scene. Shapes without material get the default one.
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
 
 /// The index of the scene to draw, or kNone where the document has none.

@@ -98,10 +98,27 @@ Field nodes() {
               {object("KHR_lights_punctual",
                       {index("light", "/extensions/KHR_lights_punctual/lights").required()}),
                object("EXT_lights_area", {index("light", "/extensions/EXT_lights_area/lights").required()}),
-               object("EXT_mesh_gpu_instancing", {index_map("attributes", "/accessors").required()})})});
+               object("EXT_mesh_gpu_instancing", {index_map("attributes", "/accessors").required()}),
+               object("PARIAN_shape", {index("shape", "/extensions/KHR_implicit_shapes/shapes").required(),
+                                       index("material", "/materials")})})});
 }
 
-Field lights() {
+/// The parameters of a cylinder or a capsule.
+Field tapered(std::string key) {
+  return object(std::move(key), {number("height").positive(), number("radiusBottom").at_least(0),
+                                 number("radiusTop").at_least(0)});
+}
+
+/// Of any type: a shape may be there for another extension's use, and of a type that comes from one.
+Field shapes() {
+  return list(
+      "shapes",
+      {text("name"), text("type").required(), object("sphere", {number("radius").positive()}),
+       object("box", {numbers("size", 3).positive()}), tapered("cylinder"), tapered("capsule"),
+       object("plane", {number("sizeX").positive(), number("sizeZ").positive(), flag("doubleSided")})});
+}
+
+Field document_extensions() {
   return object(
       "extensions",
       {object("KHR_lights_punctual",
@@ -119,7 +136,8 @@ Field lights() {
        object("EXT_lights_environment",
               {list("environments", {index("source", "/images").required(), number("intensity").at_least(0),
                                      text("frontside", {"+X", "-X", "+Z", "-Z"})})
-                   .required()})});
+                   .required()}),
+       object("KHR_implicit_shapes", {shapes().required()})});
 }
 
 }  // namespace
@@ -147,7 +165,7 @@ std::vector<Field> document_fields() {
       index("scene", "/scenes"),
       list("textures", {index("source", "/images"), index("sampler", "/samplers"),
                         object("extensions", {object("EXT_texture_webp", {index("source", "/images")})})}),
-      lights(),
+      document_extensions(),
   };
 }
 

@@ -8,7 +8,7 @@ namespace parian {
 namespace {
 
 // Embree's medium-quality BVH with its own copy of triangles and vertices, measured: docs/measurements.md.
-constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600;
+constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600, kAccelBytesPerSolid = 100;
 
 std::size_t bytes_of(const Primitive& p) {
   return p.positions.bytes() + p.normals.bytes() + p.tangents.bytes() + p.uvs[0].bytes() + p.uvs[1].bytes() +
@@ -49,11 +49,14 @@ SceneStatistics scene_statistics(const Scene& scene, const World& world) {
   s.primitives = world.parts.size();
   s.placements = world.placements.size();
   for (const Placement& p : world.placements)
-    for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i) {
+    for (std::uint32_t i = 0; i < p.part_count; ++i) {
       const Part& part = world.parts[p.first_part + i];
       s.triangles_drawn += part.primitive->triangles.size();
       if (part.emissive) s.emissive_triangles += part.primitive->triangles.size();
     }
+  s.solids = world.solids.size();
+  for (const PlacedSolid& solid : world.solids) s.emissive_solids += world.solid_parts[solid.part].emissive;
+  for (const Part& part : world.solid_parts) s.alpha_primitives += part.alpha;
   for (const Image& image : scene.images) s.image_bytes += image.pixels.bytes();
   return s;
 }
@@ -66,6 +69,7 @@ std::string describe(const Scene& scene, const World& world) {
   };
   line("triangles", fmt::format("{} stored in {} meshes, {} drawn by {} placements", s.triangles_stored,
                                 scene.meshes.size(), s.triangles_drawn, s.placements));
+  if (s.solids) line("solids", fmt::format("{} spheres, cylinders and cones", s.solids));
   if (!world.bounds.isEmpty()) {
     const Vec3f size = world.bounds.size(), center = world.bounds.center();
     line("bounds", fmt::format("{:.4g} x {:.4g} x {:.4g} m around ({:.4g}, {:.4g}, {:.4g})", size.x, size.y,
@@ -73,11 +77,13 @@ std::string describe(const Scene& scene, const World& world) {
   }
   line("materials",
        fmt::format("{}, {} primitives tested for alpha", scene.materials.size(), s.alpha_primitives));
-  line("lights", fmt::format("{} emissive triangles, {} rectangles and disks, {} punctual, {}",
-                             s.emissive_triangles, world.area_lights.size(), world.punctual_lights.size(),
-                             is_black(scene.environment.radiance) ? "no environment"
-                             : scene.environment.image == kNone   ? "a constant environment"
-                                                                  : "an environment map"));
+  line("lights",
+       fmt::format("{} emissive triangles, {} emissive solids, {} rectangles and disks, {} punctual, {}",
+                   s.emissive_triangles, s.emissive_solids, world.area_lights.size(),
+                   world.punctual_lights.size(),
+                   is_black(scene.environment.radiance) ? "no environment"
+                   : scene.environment.image == kNone   ? "a constant environment"
+                                                        : "an environment map"));
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
     const Camera& camera = scene.cameras[world.cameras[i].camera];
     const std::string& node = scene.nodes[world.cameras[i].node].name;
@@ -91,8 +97,9 @@ std::string describe(const Scene& scene, const World& world) {
       line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height,
                                 image.channels, pixel_type_name(image.type),
                                 format_bytes(double(image.pixels.bytes()))));
-  const double accel =
-      kAccelBytesPerTriangle * double(s.triangles_stored) + kAccelBytesPerPlacement * double(s.placements);
+  const double accel = kAccelBytesPerTriangle * double(s.triangles_stored) +
+                       kAccelBytesPerPlacement * double(s.placements) +
+                       kAccelBytesPerSolid * double(s.solids);
   line("memory", fmt::format("{} geometry, {} images, about {} acceleration structure",
                              format_bytes(double(s.geometry_bytes)), format_bytes(double(s.image_bytes)),
                              format_bytes(accel)));

@@ -13,7 +13,8 @@ struct SceneStatistics {
   std::size_t triangles_drawn = 0;   // each mesh as often as it is placed
   std::size_t vertices = 0, placements = 0, primitives = 0;
   std::size_t emissive_triangles = 0;  // drawn
-  std::size_t alpha_primitives = 0;    // stored, tested in the intersection
+  std::size_t solids = 0, emissive_solids = 0;
+  std::size_t alpha_primitives = 0;  // stored, tested in the intersection
   std::size_t geometry_bytes = 0, image_bytes = 0;
 };
 

@@ -13,9 +13,9 @@ import sys
 # What each layer may include besides itself. docs/architecture.md says why.
 SEES = {
     "base": [],
-    "scene": ["base"],
-    "shapes": ["base", "scene"],
-    "light": ["base", "scene"],
+    "shapes": ["base"],
+    "scene": ["base", "shapes"],
+    "light": ["base", "shapes", "scene"],
     "color": ["base", "scene"],
     "film": ["base", "scene"],
     "accel": ["base", "scene", "shapes"],

@@ -24,6 +24,7 @@ class Gltf:
         self.arrays: dict[str, list[dict[str, Any]]] = {}
         self.used_extensions: set[str] = set()
         self.light_arrays: dict[str, list[dict[str, Any]]] = {}
+        self.shapes: list[dict[str, Any]] = []
         self.scene: dict[str, Any] = {}
         self.environment: Optional[dict[str, Any]] = None
         self.binary = bytearray()
@@ -171,6 +172,20 @@ class Gltf:
         """A node with a mesh of its own."""
         return self.add_node(name, mesh=self.add_mesh(name, (geometry, material)), **placement)
 
+    def add_shape(self, kind: str, **parameters: Any) -> int:
+        """A sphere, cylinder, box or plane (KHR_implicit_shapes); equal ones are stored once."""
+        self.used_extensions.add("KHR_implicit_shapes")
+        shape = {"type": kind, kind: parameters}
+        if shape not in self.shapes:
+            self.shapes.append(shape)
+        return self.shapes.index(shape)
+
+    def add_shape_node(self, name: str, shape: int, material: int, **placement: Any) -> int:
+        """A node that draws a shape (PARIAN_shape)."""
+        self.used_extensions.add("PARIAN_shape")
+        extensions = {"PARIAN_shape": {"shape": shape, "material": material}}
+        return self.add_node(name, extensions=extensions, **placement)
+
     def add_instances(
         self,
         name: str,
@@ -206,9 +221,17 @@ class Gltf:
         turn = look_at(eye, target) if target is not None else None
         return self.add_node(name, translation=eye, rotation=turn, camera=self._append("cameras", camera))
 
-    def add_orthographic_camera(self, eye: Vec, rotation: Quat, xmag: float, ymag: float, name: str = "camera") -> int:
+    def add_orthographic_camera(
+        self,
+        eye: Vec,
+        rotation: Quat,
+        xmag: float,
+        ymag: float,
+        name: str = "camera",
+        zfar: float = 100,
+    ) -> int:
         """xmag and ymag are half of the width and of the height that are seen."""
-        orthographic = {"xmag": xmag, "ymag": ymag, "zfar": 100, "znear": 0.01}
+        orthographic = {"xmag": xmag, "ymag": ymag, "zfar": zfar, "znear": 0.01}
         camera = {"name": name, "type": "orthographic", "orthographic": orthographic}
         return self.add_node(name, translation=eye, rotation=rotation, camera=self._append("cameras", camera))
 
@@ -268,6 +291,8 @@ class Gltf:
         inner = {child for node in nodes for child in node.get("children", [])}
         scene: dict[str, Any] = {"nodes": [i for i in range(len(nodes)) if i not in inner]}
         extensions: dict[str, Any] = {key: {"lights": lights} for key, lights in self.light_arrays.items()}
+        if self.shapes:
+            extensions["KHR_implicit_shapes"] = {"shapes": self.shapes}
         if self.environment:
             extensions["EXT_lights_environment"] = {"environments": [self.environment]}
             scene["extensions"] = {"EXT_lights_environment": {"environment": 0}}

@@ -8,24 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "renderer/accel/embree.h"
+#include "renderer/accel/query.h"
+#include "renderer/accel/solid_geometry.h"
 #include "renderer/base/parallel.h"
-#include "renderer/base/random.h"
 
 namespace parian {
 namespace {
 
 constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
-
-/// What the alpha filter needs of the rays that Embree traces; Embree passes the context on.
-struct Query : EmbreeContext {
-  const Scene* scene;
-  const std::uint32_t* random;  // of each ray, by its id
-
-  Query(const Scene* s, const std::uint32_t* r, bool coherent) : scene(s), random(r) {
-    init_context(*this, coherent);
-  }
-};
 
 /// Calls keep(i) for each hit that Embree asks about, and turns it away where that is false.
 template <class Keep>
@@ -43,10 +33,9 @@ void alpha_filter(const RTCFilterFunctionNArguments* a) {
     const std::uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
     const float coverage =
         eval_coverage(*query->scene, part, triangle, RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
-    if (coverage >= 1) return true;
     const std::uint32_t top = RTCHitN_instID(a->hit, a->N, i, 0);
     const std::uint32_t where = hash32(triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
-    return to_unit_float(hash32(query->random[RTCRayN_id(a->ray, a->N, i)], where)) < coverage;
+    return query->meets(RTCRayN_id(a->ray, a->N, i), where, coverage);
   });
 }
 
@@ -114,7 +103,8 @@ bool memory_monitor(void* user, ssize_t bytes, bool) {
 }  // namespace
 
 struct Accel::Impl {
-  // A top-level geometry id means: a primitive in world space, an instance of a mesh, or all area lights.
+  // A top-level geometry id means: a primitive in world space, an instance of a mesh, all area lights, or
+  // (placement kSolid) the solids of solid_geometries[primitive].
   struct TopEntry {
     std::uint32_t placement, primitive;
   };
@@ -131,6 +121,7 @@ struct Accel::Impl {
   std::vector<SharedArray<Triangle>>
       kept;  // indices, which Embree reads where they are; an edited scene may hold others
   std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
+  std::vector<SolidGeometry> solid_geometries;
 
   Impl(const Scene& s, const World& w, bool edit) : scene(&s), world(&w), editable(edit) {
     device = rtcNewDevice(fmt::format("threads={}", thread_count()).c_str());
@@ -161,11 +152,15 @@ struct Accel::Impl {
       throw std::runtime_error(fmt::format("Embree: {} failed with error {}", what, int(error)));
   }
 
-  Hit to_hit(float t, float u, float v, unsigned instance, unsigned geometry, unsigned triangle) const {
-    if (geometry == kInvalid) return {t, u, v, Hit::kMiss, 0, 0};
+  /// `g`: what Embree reports as the normal.
+  Hit to_hit(float t, float u, float v, unsigned instance, unsigned geometry, unsigned triangle,
+             const Vec3f& g) const {
+    if (geometry == kInvalid) return {t, u, v, Hit::kMiss, 0, 0, 0};
     const bool instanced = instance != kInvalid;
     const TopEntry& entry = entries[instanced ? instance : geometry];
-    return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle};
+    if (entry.placement == Hit::kSolid) [[unlikely]]
+      return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, g);
+    return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle, 0};
   }
 
   RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
@@ -200,16 +195,15 @@ struct Accel::Impl {
   }
 
   void build_meshes() {
-    std::vector<int> uses(scene->meshes.size(), 0);
+    std::vector<int> uses(world->mesh_count(*scene), 0);
     for (const Placement& p : world->placements) ++uses[p.mesh];
-    mesh_scenes.assign(scene->meshes.size(), nullptr);
+    mesh_scenes.assign(uses.size(), nullptr);
     for (const Placement& p : world->placements) {
       if (mesh_scenes[p.mesh] || (!editable && uses[p.mesh] == 1)) continue;
       RTCScene mesh = new_scene();
-      const std::size_t count = scene->meshes[p.mesh].primitives.size();
-      for (std::size_t i = 0; i < count; ++i) {
+      for (std::uint32_t i = 0; i < p.part_count; ++i) {
         RTCGeometry geometry = new_triangles(world->parts[p.first_part + i], nullptr);
-        rtcAttachGeometryByID(mesh, geometry, unsigned(i));
+        rtcAttachGeometryByID(mesh, geometry, i);
         rtcReleaseGeometry(geometry);
       }
       rtcCommitScene(mesh);
@@ -234,7 +228,7 @@ struct Accel::Impl {
         set_instance_transform(instance, p.to_world);
         attach(instance, i, 0);
       } else {
-        for (std::uint32_t k = 0; k < scene->meshes[p.mesh].primitives.size(); ++k)
+        for (std::uint32_t k = 0; k < p.part_count; ++k)
           attach(new_triangles(world->parts[p.first_part + k], p.identity ? nullptr : &p.to_world), i, k);
       }
     }
@@ -248,6 +242,12 @@ struct Accel::Impl {
       for (std::uint32_t i = 0; i < 4 * world->area_lights.size(); ++i) indices[i] = i;
       set_area_lights(quads);
       attach(quads, Hit::kAreaLightHit, 0);
+    }
+    solid_geometries = sort_solids(*world);
+    for (std::uint32_t i = 0; i < solid_geometries.size(); ++i) {
+      RTCGeometry geometry = new_solid_geometry(device, solid_geometries[i]);
+      rtcCommitGeometry(geometry);
+      attach(geometry, Hit::kSolid, i);
     }
     commit_top();
   }
@@ -296,10 +296,12 @@ void Accel::rebind(const Scene& scene, const World& world) {
     RTCGeometry geometry = impl_->geometries[id];
     if (placement == Hit::kAreaLightHit) {
       impl_->set_area_lights(geometry);
+    } else if (placement == Hit::kSolid) {
+      impl_->solid_geometries[primitive].world = &world;
     } else if (RTCScene mesh = impl_->mesh_scenes[world.placements[placement].mesh]) {
       const Placement& p = world.placements[placement];
-      for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i)
-        rtcSetGeometryUserData(rtcGetGeometry(mesh, unsigned(i)),
+      for (std::uint32_t i = 0; i < p.part_count; ++i)
+        rtcSetGeometryUserData(rtcGetGeometry(mesh, i),
                                const_cast<void*>(static_cast<const void*>(&world.parts[p.first_part + i])));
     } else {
       rtcSetGeometryUserData(geometry,
@@ -316,6 +318,11 @@ void Accel::update_transforms(const Scene& scene, const World& world) {
   for (std::size_t id = 0; id < impl_->entries.size(); ++id) {
     const auto [placement, primitive] = impl_->entries[id];
     if (placement == Hit::kAreaLightHit) continue;
+    if (placement == Hit::kSolid) {
+      fill_solids(impl_->solid_geometries[primitive], world);
+      rtcCommitGeometry(impl_->geometries[id]);
+      continue;
+    }
     const Placement& p = world.placements[placement];
     if (old[placement] == p.to_world) continue;
     RTCGeometry geometry = impl_->geometries[id];
@@ -331,18 +338,19 @@ void Accel::update_transforms(const Scene& scene, const World& world) {
 }
 
 bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
-  Query query(impl_->scene, &random, false);
+  Query query(impl_->scene, impl_->world, &random, false);
   RTCRayHit r;
   set_ray(r.ray, ray);
   r.hit.geomID = kInvalid;
   r.hit.instID[0] = kInvalid;
   embree_intersect(impl_->top, r, query);
-  hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID);
+  hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID,
+                      {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
   return hit.placement != Hit::kMiss;
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
-  Query query(impl_->scene, &random, false);
+  Query query(impl_->scene, impl_->world, &random, false);
   RTCRay r;
   set_ray(r, ray);
   embree_occluded(impl_->top, r, query);
@@ -350,7 +358,7 @@ bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
 }
 
 void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
-  Query query(impl_->scene, rays.random, true);
+  Query query(impl_->scene, impl_->world, rays.random, true);
   RTCRayHit16 r;
   const Lanes lanes = set_rays(r.ray, rays);
   std::ranges::fill(r.hit.geomID, kInvalid);
@@ -358,11 +366,11 @@ void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& 
   embree_intersect(impl_->top, lanes.valid, r, query);
   for (int i = 0; i < rays.count; ++i)
     hits[i] = impl_->to_hit(r.ray.tfar[i], r.hit.u[i], r.hit.v[i], r.hit.instID[0][i], r.hit.geomID[i],
-                            r.hit.primID[i]);
+                            r.hit.primID[i], {r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]});
 }
 
 std::uint32_t Accel::occluded(const RayPacket& rays) const {
-  Query query(impl_->scene, rays.random, false);
+  Query query(impl_->scene, impl_->world, rays.random, false);
   RTCRay16 r;
   const Lanes lanes = set_rays(r, rays);
   embree_occluded(impl_->top, lanes.valid, r, query);

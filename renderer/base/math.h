@@ -21,6 +21,7 @@ using Vec3d = Imath::V3d;
 using Vec4f = Imath::V4f;
 using Quatf = Imath::Quatf;
 using Box3f = Imath::Box3f;
+using Box3d = Imath::Box3d;
 /// Row-vector convention (p' = p M, translation in row 3), which is the memory order of a glTF matrix.
 using Mat4d = Imath::M44d;
 /// Linear Rec.709 radiance, reflectance or weight.
@@ -50,8 +51,8 @@ inline bool is_finite(const Vec3f& v) {
 inline bool is_black(const Rgb& c) { return c.x + c.y + c.z == 0; }
 
 /// The angle of the point (x, y) from the x axis, in [-pi, pi], to 4e-7; 0 at the origin. The arc tangent on
-/// [0, 1] is a minimax polynomial (fitted by Lawson's iteration, 4e-8); a fifth of the cost of the library's
-/// atan2.
+/// [0, 1] is a minimax polynomial (fitted by Lawson's iteration, 4e-8); at random points two fifths of the
+/// cost of the library's atan2 (11 and 28 ns).
 inline float angle_of(float x, float y) {
   const float ax = std::abs(x), ay = std::abs(y);
   const float larger = std::max(ax, ay), smaller = std::min(ax, ay);
@@ -82,20 +83,36 @@ inline Frame make_frame(const Vec3f& z) {
 }
 
 /// p -> x p.x + y p.y + z p.z + p0: the columns of a 3x4 matrix.
-struct Affine {
-  Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};
+template <class T>
+struct BasicAffine {
+  using Vec = Imath::Vec3<T>;
+  Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{0, 0, 0};
 
-  Vec3f point(const Vec3f& q) const { return x * q.x + y * q.y + z * q.z + origin; }
-  Vec3f vector(const Vec3f& v) const { return x * v.x + y * v.y + z * v.z; }
+  Vec point(const Vec& q) const { return x * q.x + y * q.y + z * q.z + origin; }
+  Vec vector(const Vec& v) const { return x * v.x + y * v.y + z * v.z; }
   /// The cofactor matrix applied to a normal: the direction of the inverse transpose times |det|, with the
-  /// sign of the determinant taken out, so that a mirrored closed surface keeps its outside. Not normalised.
-  Vec3f normal(const Vec3f& n) const {
-    const Vec3f c = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
+  /// sign of the determinant taken out, so that a mirrored closed surface keeps its outside. Its length is
+  /// the factor by which an area across a unit n grows.
+  Vec normal(const Vec& n) const {
+    const Vec c = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
     return determinant() < 0 ? -c : c;
   }
-  float determinant() const { return x.dot(y.cross(z)); }
-  bool operator==(const Affine&) const = default;
+  T determinant() const { return x.dot(y.cross(z)); }
+  bool operator==(const BasicAffine&) const = default;
 };
+using Affine = BasicAffine<float>;
+using Affined = BasicAffine<double>;
+
+/// The inverse of a map whose determinant is not zero, in double precision.
+inline Affined inverse(const Affine& a) {
+  const Vec3d x(a.x), y(a.y), z(a.z);
+  // The rows of the inverse are the cofactors over the determinant.
+  const double det = x.dot(y.cross(z));
+  const Vec3d rx = y.cross(z) / det, ry = z.cross(x) / det, rz = x.cross(y) / det;
+  Affined inverse{{rx.x, ry.x, rz.x}, {rx.y, ry.y, rz.y}, {rx.z, ry.z, rz.z}, {0, 0, 0}};
+  inverse.origin = -inverse.vector(Vec3d(a.origin));
+  return inverse;
+}
 
 /// The affine part of a row-vector matrix, rounded to float.
 inline Affine to_affine(const Mat4d& m) {

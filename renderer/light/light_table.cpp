@@ -25,6 +25,11 @@ std::optional<LightSample> area_sample(const Vec3f& p, const Vec3f& point, const
   return LightSample{wi, Rgb(0, 0, 0), pdf, false, false, point + normal * std::copysign(offset, cosine)};
 }
 
+std::array<Vec2f, 2> solid_uvs(const PlacedSolid& placed, const SurfaceSample& point) {
+  const Vec2f uv = surface_point(placed.solid, point.p, point.face).uv;
+  return {uv, uv};
+}
+
 }  // namespace
 
 LightTable::LightTable(const Scene& scene, const World& world)
@@ -33,10 +38,11 @@ LightTable::LightTable(const Scene& scene, const World& world)
   for (const Part& part : world.parts) emissive |= part.emissive;
   if (emissive) {
     first_triangle_.reserve(world.slot_count);
-    for (const Placement& placement : world.placements)
-      add_placement(placement, int(scene.meshes[placement.mesh].primitives.size()));
+    for (const Placement& placement : world.placements) add_placement(placement);
   }
-  first_area_ = int(triangles_.size());
+  add_solids();
+  first_solid_ = int(triangles_.size());
+  first_area_ = first_solid_ + int(solids_.size());
   first_punctual_ = first_area_ + int(world.area_lights.size());
   environment_index_ = first_punctual_ + int(world.punctual_lights.size());
   count_ = environment_index_ + (environment_.black() ? 0 : 1);
@@ -46,6 +52,7 @@ LightTable::LightTable(const Scene& scene, const World& world)
   std::vector<float> powers;
   powers.reserve(count_);
   for (const EmissiveTriangle& t : triangles_) powers.push_back(power(t));
+  for (const std::uint32_t solid : solids_) powers.push_back(power(world.solids[solid]));
   for (const AreaLight& light : world.area_lights) powers.push_back(power(light));
   for (const PunctualLight& light : world.punctual_lights) powers.push_back(power(light, radius));
   if (!environment_.black())
@@ -53,8 +60,8 @@ LightTable::LightTable(const Scene& scene, const World& world)
   distribution_ = Distribution1D(powers);
 }
 
-void LightTable::add_placement(const Placement& placement, int primitives) {
-  for (int i = 0; i < primitives; ++i) {
+void LightTable::add_placement(const Placement& placement) {
+  for (std::uint32_t i = 0; i < placement.part_count; ++i) {
     first_triangle_.push_back(std::uint32_t(triangles_.size()));
     const Part& part = world_->parts[placement.first_part + i];
     if (!part.emissive) continue;
@@ -72,22 +79,46 @@ void LightTable::add_placement(const Placement& placement, int primitives) {
   }
 }
 
-float LightTable::power(const EmissiveTriangle& e) const {
-  const Material& material = *e.part->material;
+void LightTable::add_solids() {
+  for (std::uint32_t i = 0; i < world_->solids.size(); ++i) {
+    if (!world_->solid_parts[world_->solids[i].part].emissive) continue;
+    solid_lights_.resize(world_->solids.size());
+    solid_lights_[i] = std::uint32_t(solids_.size());
+    solids_.push_back(i);
+  }
+}
+
+/// Mean luminance of a material's emission over a surface, whose point for u in the unit square has the
+/// coordinates uvs_at(u).
+template <class UvsAt>
+float LightTable::mean_emission(const Material& material, const UvsAt& uvs_at) const {
   Rgb mean = material.emission;
   if (material.emission_texture) {
     // Sixteen points estimate the texture's mean; a tenth of the factor keeps what they miss from being
     // starved.
-    const Triangle& t = e.part->primitive->triangles[e.triangle];
     mean *= 0.1f;
     for (int i = 0; i < 16; ++i) {
-      const Vec2f b =
-          sample_triangle({(float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i)))});
-      mean +=
-          eval_emission(*scene_, material, interpolate_uvs(*e.part->primitive, t, b.x, b.y)) * (0.9f / 16);
+      const Vec2f u((float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i))));
+      mean += eval_emission(*scene_, material, uvs_at(u)) * (0.9f / 16);
     }
   }
-  return luminance(mean) * e.area * kPi * (material.double_sided ? 2 : 1);
+  return luminance(mean) * (material.double_sided ? 2 : 1);
+}
+
+float LightTable::power(const EmissiveTriangle& e) const {
+  const Triangle& t = e.part->primitive->triangles[e.triangle];
+  return kPi * e.area * mean_emission(*e.part->material, [&](const Vec2f& u) {
+           const Vec2f b = sample_triangle(u);
+           return interpolate_uvs(*e.part->primitive, t, b.x, b.y);
+         });
+}
+
+float LightTable::power(const PlacedSolid& placed) const {
+  const double world_area =
+      placed.round_radius > 0 ? area(Sphere{placed.round_radius}) : area(placed.solid, placed.to_world);
+  return kPi * float(world_area) *
+         mean_emission(*world_->solid_parts[placed.part].material,
+                       [&](const Vec2f& u) { return solid_uvs(placed, sample_surface(placed.solid, u)); });
 }
 
 float LightTable::power(const AreaLight& light) const {
@@ -116,7 +147,9 @@ std::optional<LightSample> LightTable::sample(const Vec3f& p, Vec2f u, Sampler& 
     if (count_ <= kMaxLightsForOneNumber) u.x = chosen.remainder;
     if (probability <= 0) return std::nullopt;
   }
-  if (light < first_area_) return sample_emissive(triangles_[light], probability, p, u);
+  if (light < first_solid_) return sample_emissive(triangles_[light], probability, p, u);
+  if (light < first_area_)
+    return sample_solid(world_->solids[solids_[light - first_solid_]], probability, p, u);
   if (light < first_punctual_)
     return sample_area(world_->area_lights[light - first_area_], probability, p, u);
   if (light < environment_index_)
@@ -138,6 +171,36 @@ std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e
     s->radiance = eval_emission(*scene_, material,
                                 interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
   }
+  return s;
+}
+
+std::optional<LightSample> LightTable::sample_solid(const PlacedSolid& placed, float probability,
+                                                    const Vec3f& p, const Vec2f& u) const {
+  const Material& material = *world_->solid_parts[placed.part].material;
+  std::optional<LightSample> s;
+  SurfaceSample point;  // in the space of the solid
+  if (placed.round_radius > 0) {
+    const Vec3f center = placed.to_world.origin;
+    const auto seen = sample_directions(center, placed.round_radius, p, u);
+    if (!seen || !usable(seen->pdf)) return std::nullopt;
+    const float cosine = -seen->w.dot(seen->normal);
+    if (!material.double_sided && cosine <= 0) return std::nullopt;
+    const Vec3f from_center = seen->normal * placed.round_radius;
+    point = {Vec3f(placed.to_object.vector(Vec3d(from_center))), Face::side};
+    const float offset = std::copysign(solid_offset(placed.to_world, point.p), cosine);
+    s = LightSample{seen->w, Rgb(0, 0, 0), probability * seen->pdf,
+                    false,   false,        center + from_center + seen->normal * offset};
+  } else {
+    point = sample_surface(placed.solid, u);
+    const Vec3f normal = placed.to_world.normal(surface_point(placed.solid, point.p, point.face).normal);
+    const float stretch = normal.length();
+    s = area_sample(p, placed.to_world.point(point.p), normal / stretch,
+                    solid_offset(placed.to_world, point.p), area(placed.solid) * stretch, probability,
+                    material.double_sided);
+  }
+  if (s) s->radiance = material.emission;
+  if (s && material.emission_texture)
+    s->radiance = eval_emission(*scene_, material, solid_uvs(placed, point));
   return s;
 }
 
@@ -187,6 +250,15 @@ float LightTable::pdf_triangle(const Hit& hit, float cosine) const {
   const Placement& placement = world_->placements[hit.placement];
   const int light = int(first_triangle_[placement.first_slot + hit.primitive] + hit.triangle);
   return choice(light) * hit.t * hit.t / (triangles_[light].area * cosine);
+}
+
+float LightTable::pdf_solid(const Hit& hit, const Vec3f& origin, float cosine) const {
+  const PlacedSolid& placed = world_->solids[hit.solid()];
+  const float chosen = choice(first_solid_ + int(solid_lights_[hit.solid()]));
+  if (placed.round_radius > 0)
+    return chosen * pdf_directions(placed.to_world.origin, placed.round_radius, origin);
+  const Vec3f normal = surface_point(placed.solid, {hit.u, hit.v, hit.w}, Face(hit.triangle)).normal;
+  return chosen * hit.t * hit.t / (area(placed.solid) * placed.to_world.normal(normal).length() * cosine);
 }
 
 float LightTable::pdf_area_light(const Hit& hit, float cosine) const {

@@ -54,7 +54,7 @@ Mat4d Transform::to_matrix() const {
 }
 
 void append(Scene& scene, const Scene& other) {
-  const std::size_t nodes = scene.nodes.size(), meshes = scene.meshes.size(),
+  const std::size_t nodes = scene.nodes.size(), meshes = scene.meshes.size(), shapes = scene.shapes.size(),
                     materials = scene.materials.size(), textures = scene.textures.size(),
                     images = scene.images.size(), cameras = scene.cameras.size(),
                     lights = scene.lights.size();
@@ -63,6 +63,8 @@ void append(Scene& scene, const Scene& other) {
   for (Node& node : added.nodes) {
     for (int& child : node.children) shift(child, nodes);
     shift(node.mesh, meshes);
+    shift(node.shape, shapes);
+    shift(node.shape_material, materials);
     shift(node.camera, cameras);
     shift(node.light, lights);
   }
@@ -77,6 +79,7 @@ void append(Scene& scene, const Scene& other) {
   extend(scene.nodes, added.nodes);
   extend(scene.roots, added.roots);
   extend(scene.meshes, added.meshes);
+  extend(scene.shapes, added.shapes);
   extend(scene.materials, added.materials);
   extend(scene.textures, added.textures);
   extend(scene.images, added.images);

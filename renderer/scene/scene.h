@@ -98,6 +98,20 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 };
 
+enum class ShapeKind : std::uint8_t { sphere, cylinder, box, plane };
+
+/// A shape that needs no mesh (KHR_implicit_shapes), about the origin of the node that shows it; metres.
+struct Shape {
+  std::string name;
+  ShapeKind kind = ShapeKind::sphere;
+  float radius = 0.5f;  // sphere
+  // Cylinder: capped, along y, its bottom at -height / 2; where the radii differ a frustum, where one is 0 a
+  // cone.
+  float radius_bottom = 0.25f, radius_top = 0.25f, height = 0.5f;
+  Vec3f size{1, 1, 1};  // box: full sides; plane: its sides along x and z, its front towards +y
+  bool operator==(const Shape&) const = default;
+};
+
 /// EXT_camera_physical. The lens is a disk of radius focal_length / (2 f_stop), focused on the plane at
 /// focus_distance; metres.
 struct Lens {
@@ -149,7 +163,9 @@ struct Node {
   Transform transform;
   std::vector<int> children;
   int mesh = kNone, camera = kNone, light = kNone;
-  std::vector<Transform> instances;  // EXT_mesh_gpu_instancing: if not empty, the mesh is drawn once for each
+  int shape = kNone, shape_material = kNone;  // PARIAN_shape: both, or neither
+  std::vector<Transform>
+      instances;  // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
   bool operator==(const Node&) const = default;
 };
 
@@ -167,6 +183,7 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<int> roots;
   std::vector<Mesh> meshes;
+  std::vector<Shape> shapes;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Image> images;

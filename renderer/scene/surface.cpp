@@ -30,34 +30,41 @@ Vec3f uv_tangent(const Primitive& primitive, const Triangle& t, int set, const V
   return det == 0 ? Vec3f(0) : (e1 * d2.y - e2 * d1.y) * (det < 0 ? -1.0f : 1.0f);
 }
 
-/// The normal of the normal map (glTF 2.0, 3.9.3), in world space; n where the surface has no tangent there.
-Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placement, const Hit& hit,
-                 const Vec3f& n, const Vec3f& e1, const Vec3f& e2) {
-  const Material& material = *s.part->material;
-  const Primitive& primitive = *s.part->primitive;
-  const Triangle& t = primitive.triangles[hit.triangle];
-  Vec3f tangent;
+/// A tangent in world space, of any length, and the side on which the bitangent is: its sign against n x
+/// tangent.
+struct Tangent {
+  Vec3f direction;
   float sign;
+};
+
+/// That of a triangle for its normal map; zero where there is none.
+Tangent triangle_tangent(const Material& material, const Primitive& primitive, const Placement& placement,
+                         const Hit& hit, const Vec3f& n, const Vec3f& e1, const Vec3f& e2) {
+  const Triangle& t = primitive.triangles[hit.triangle];
   if (!primitive.tangents.empty()) {
     const Vec4f local = interpolate(primitive.tangents, t, hit.u, hit.v);
-    tangent = placement.to_world.vector({local.x, local.y, local.z});
-    sign = (local.w < 0) != (placement.to_world.determinant() < 0) ? -1.0f : 1.0f;
-  } else {
-    const int set = material.normal_texture.uv_set;
-    tangent = uv_tangent(primitive, t, set, e1, e2);
-    // v grows downwards in the image, so the bitangent is against dp/dv: its side follows from the map's
-    // orientation.
-    const SharedArray<Vec2f>& uvs = primitive.uvs[set];
-    const Vec2f d1 = uvs.empty() ? Vec2f(0) : uvs[t[1]] - uvs[t[0]],
-                d2 = uvs.empty() ? Vec2f(0) : uvs[t[2]] - uvs[t[0]];
-    const Vec3f bitangent = (e1 * d2.x - e2 * d1.x) * (d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f);
-    sign = n.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f;
+    return {placement.to_world.vector({local.x, local.y, local.z}),
+            (local.w < 0) != (placement.to_world.determinant() < 0) ? -1.0f : 1.0f};
   }
-  tangent -= n * n.dot(tangent);
+  const int set = material.normal_texture.uv_set;
+  const Vec3f tangent = uv_tangent(primitive, t, set, e1, e2);
+  // v grows downwards in the image, so the bitangent is against dp/dv: its side follows from the map's
+  // orientation.
+  const SharedArray<Vec2f>& uvs = primitive.uvs[set];
+  const Vec2f d1 = uvs.empty() ? Vec2f(0) : uvs[t[1]] - uvs[t[0]],
+              d2 = uvs.empty() ? Vec2f(0) : uvs[t[2]] - uvs[t[0]];
+  const Vec3f bitangent = (e1 * d2.x - e2 * d1.x) * (d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f);
+  return {tangent, n.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f};
+}
+
+/// The normal of the normal map (glTF 2.0, 3.9.3), in world space; n where the surface has no tangent there.
+Vec3f map_normal(const Scene& scene, const Surface& s, const Vec3f& n, const Tangent& t) {
+  const Material& material = *s.part->material;
+  Vec3f tangent = t.direction - n * n.dot(t.direction);
   const float length = tangent.length();
   if (!(length > 0)) return n;
   tangent /= length;
-  const Vec3f bitangent = n.cross(tangent) * sign;
+  const Vec3f bitangent = n.cross(tangent) * t.sign;
   const Vec4f texel = eval_texture(scene, material.normal_texture, s.uvs, ColorSpace::linear);
   const Vec3f m((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale,
                 2 * texel.z - 1);
@@ -65,9 +72,42 @@ Vec3f map_normal(const Scene& scene, const Surface& s, const Placement& placemen
   return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
 }
 
+/// Turns a shading normal towards the viewer, and makes the frame around it.
+void set_frame(Surface& s, Vec3f ns) {
+  if (!s.front) ns = -ns;
+  // A shading normal that faces away from the viewer cannot be shaded: the geometric one takes its place.
+  if (s.wo.dot(ns) <= 0) ns = s.front ? s.ng : -s.ng;
+  s.frame = make_frame(ns);
+}
+
+[[gnu::noinline]] Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hit,
+                                             const Vec3f& d) {
+  const PlacedSolid& placed = world.solids[hit.solid()];
+  const Vec3f local(hit.u, hit.v, hit.w);
+  const SolidPoint point = surface_point(placed.solid, local, Face(hit.triangle));
+  Surface s;
+  s.part = &world.solid_parts[placed.part];
+  s.wo = -d;
+  const Affine& m = placed.to_world;
+  s.p = Vec3f(Affined{Vec3d(m.x), Vec3d(m.y), Vec3d(m.z), Vec3d(m.origin)}.point(Vec3d(local)));
+  s.ng = direction_of(m.normal(point.normal), s.wo);
+  s.offset = solid_offset(m, local);
+  s.front = s.wo.dot(s.ng) >= 0;
+  s.uvs = {point.uv, point.uv};
+  s.color = Vec4f(1);
+  Vec3f ns = s.ng;
+  if (s.part->needs_tangent) {
+    const float sign = m.determinant() < 0 ? -1.0f : 1.0f;
+    ns = map_normal(scene, s, ns, {m.vector(point.dpdu), sign});
+  }
+  set_frame(s, ns);
+  return s;
+}
+
 }  // namespace
 
 Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
+  if (hit.is_solid()) return make_solid_surface(scene, world, hit, d);
   const Placement& placement = world.placements[hit.placement];
   const Part& part = world.parts[placement.first_part + hit.primitive];
   const Primitive& primitive = *part.primitive;
@@ -101,12 +141,21 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
     const Vec3f local = interpolate(primitive.normals, t, hit.u, hit.v);
     ns = direction_of(placement.identity ? local : placement.to_world.normal(local), s.ng);
   }
-  if (part.needs_tangent) ns = map_normal(scene, s, placement, hit, ns, e1, e2);
-  if (!s.front) ns = -ns;
-  // A shading normal that faces away from the viewer cannot be shaded: the geometric one takes its place.
-  if (s.wo.dot(ns) <= 0) ns = s.front ? s.ng : -s.ng;
-  s.frame = make_frame(ns);
+  if (part.needs_tangent)
+    ns = map_normal(scene, s, ns, triangle_tangent(*part.material, primitive, placement, hit, ns, e1, e2));
+  set_frame(s, ns);
   return s;
+}
+
+int hit_node(const World& world, const Hit& hit) {
+  if (hit.placement == Hit::kAreaLightHit) return world.area_lights[hit.triangle].node;
+  return hit.is_solid() ? world.solids[hit.solid()].node : world.placements[hit.placement].node;
+}
+
+float solid_offset(const Affine& to_world, const Vec3f& point) {
+  const Vec3f sums = abs(to_world.x) * std::abs(point.x) + abs(to_world.y) * std::abs(point.y) +
+                     abs(to_world.z) * std::abs(point.z) + abs(to_world.origin);
+  return error_gamma(12) * max_component(sums);
 }
 
 Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs) {
@@ -122,18 +171,20 @@ std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle&
   return uvs;
 }
 
-float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle, float u, float v) {
-  const Primitive& primitive = *part.primitive;
-  const Material& material = *part.material;
-  const Triangle& t = primitive.triangles[triangle];
-  float alpha = material.alpha;
-  if (!primitive.colors.empty()) alpha *= interpolate(primitive.colors, t, u, v).w;
+float eval_coverage(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs,
+                    float alpha) {
+  alpha *= material.alpha;
   if (material.base_color_texture)
-    alpha *= eval_texture(scene, material.base_color_texture, interpolate_uvs(primitive, t, u, v),
-                          ColorSpace::srgb)
-                 .w;
+    alpha *= eval_texture(scene, material.base_color_texture, uvs, ColorSpace::srgb).w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
   return alpha;
+}
+
+float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle, float u, float v) {
+  const Primitive& primitive = *part.primitive;
+  const Triangle& t = primitive.triangles[triangle];
+  const float alpha = primitive.colors.empty() ? 1 : interpolate(primitive.colors, t, u, v).w;
+  return eval_coverage(scene, *part.material, interpolate_uvs(primitive, t, u, v), alpha);
 }
 
 }  // namespace parian

@@ -10,12 +10,17 @@
 namespace parian {
 
 /// What a ray hit: triangle `triangle` of primitive `primitive` of placement `placement` at barycentric
-/// weights (1 - u - v, u, v); or, where placement is kAreaLightHit, area light `triangle`; or, where it is
-/// kMiss, nothing.
+/// weights (1 - u - v, u, v); or, where is_solid(), face `triangle` of solid `placement` - kSolid at the
+/// point (u, v, w) of its own space; or, where placement is kAreaLightHit, area light `triangle`; or, where
+/// it is kMiss, nothing.
 struct Hit {
-  static constexpr std::uint32_t kAreaLightHit = 0xffffffffu, kMiss = 0xfffffffeu;
+  static constexpr std::uint32_t kAreaLightHit = 0xffffffffu, kMiss = 0xfffffffeu, kSolid = 0x80000000u;
   float t, u, v;
   std::uint32_t placement, primitive, triangle;
+  float w = 0;  // of a solid alone
+
+  bool is_solid() const { return placement >= kSolid && placement < kMiss; }
+  std::uint32_t solid() const { return placement - kSolid; }
 };
 
 struct Surface {
@@ -30,8 +35,11 @@ struct Surface {
   Vec4f color;               // vertex colour, white where there is none
 };
 
-/// The surface at a hit (on a mesh) by a ray of unit direction d.
+/// The surface at a hit (on a mesh or solid) by a ray of unit direction d.
 Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d);
+
+/// The node that shows what was hit, which is not nothing.
+int hit_node(const World& world, const Hit& hit);
 
 /// Where a ray along w leaves: p moved to w's side of the surface, beyond the rounding error.
 inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
@@ -44,13 +52,23 @@ inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
 /// in.
 inline float plane_offset(float extent) { return error_gamma(16) * extent; }
 
+/// The same for a point of a solid, given in its own space, and a bound for the error of its position. The
+/// intersection and the way to world space are in double precision; what counts is the rounding of the point
+/// in both spaces and of the new origin, and that a sphere is round where its map scales alike but for
+/// rounding: below 10 units of roundoff of the numbers that are added up, in any direction.
+float solid_offset(const Affine& to_world, const Vec3f& point);
+
 /// Emitted radiance of a material at uvs, on a side from which it emits.
 Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs);
 
 /// Interpolated texture coordinates of a point of a triangle; zero where the primitive has none.
 std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle& triangle, float u, float v);
 
-/// Coverage in [0, 1] at a point of a triangle: base colour alpha; for MASK 0 or 1 by the cutoff.
+/// Coverage in [0, 1] of a material at uvs, where the vertex colour's alpha is `alpha`: base colour alpha;
+/// for MASK 0 or 1 by the cutoff.
+float eval_coverage(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs,
+                    float alpha);
+/// The same at a point of a triangle.
 float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle, float u, float v);
 
 }  // namespace parian

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -41,6 +42,25 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
   check_texture(scene, m.emission_texture, where + "/emission_texture", check);
   check_texture(scene, m.specular_texture, where + "/specular_texture", check);
   check_texture(scene, m.specular_color_texture, where + "/specular_color_texture", check);
+}
+
+void check_shape(const Shape& shape, const std::string& where, const Check& check) {
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      check.positive(shape.radius, where + "/radius");
+      break;
+    case ShapeKind::cylinder:
+      check.not_negative(shape.radius_bottom, where + "/radius_bottom");
+      check.not_negative(shape.radius_top, where + "/radius_top");
+      check.positive(std::max(shape.radius_bottom, shape.radius_top), where + "/radius_top");
+      check.positive(shape.height, where + "/height");
+      break;
+    case ShapeKind::box:
+    case ShapeKind::plane:
+      check.positive(shape.size.x, where + "/size");
+      if (shape.kind == ShapeKind::box) check.positive(shape.size.y, where + "/size");
+      check.positive(shape.size.z, where + "/size");
+  }
 }
 
 void check_camera(const Camera& camera, const std::string& where, const Check& check) {
@@ -92,6 +112,8 @@ void validate(const Scene& scene, const std::string& file) {
   check.each("materials", scene.materials,
              [&](const Material& m, const std::string& where) { check_material(scene, m, where, check); });
   validate_meshes(scene, check);
+  check.each("shapes", scene.shapes,
+             [&](const Shape& shape, const std::string& where) { check_shape(shape, where, check); });
   check.each("cameras", scene.cameras,
              [&](const Camera& camera, const std::string& where) { check_camera(camera, where, check); });
   check.each("lights", scene.lights,

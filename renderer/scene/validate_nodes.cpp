@@ -26,6 +26,9 @@ void check_node(const Scene& scene, const Node& node, const std::string& where, 
     check_transform(node.instances[i], fmt::format("{}/instances/{}", where, i), check);
   }
   check.optional_index(node.mesh, scene.meshes.size(), where + "/mesh");
+  check.optional_index(node.shape, scene.shapes.size(), where + "/shape");
+  if (node.shape != kNone)
+    check.index(node.shape_material, scene.materials.size(), where + "/shape_material");
   check.optional_index(node.camera, scene.cameras.size(), where + "/camera");
   check.optional_index(node.light, scene.lights.size(), where + "/light");
   for (std::size_t i = 0; i < node.children.size(); ++i) {

@@ -2,31 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <utility>
 
 #include "renderer/base/parallel.h"
+#include "renderer/scene/shape_meshes.h"
 
 namespace parian {
 namespace {
 
-bool has_alpha(const Material& material, const Primitive& primitive) {
+/// `colored`: there are vertex colours.
+bool has_alpha(const Material& material, bool colored) {
   if (material.alpha_mode == AlphaMode::opaque) return false;
-  return material.alpha < 1 || material.base_color_texture || !primitive.colors.empty() ||
+  return material.alpha < 1 || material.base_color_texture || colored ||
          (material.alpha_mode == AlphaMode::mask && material.alpha_cutoff > 1);
 }
 
-Part make_part(const Scene& scene, const Primitive& primitive) {
-  const Material& m = scene.materials[primitive.material];
+/// Of a primitive, or, where that is null, a solid.
+Part make_part(const Scene& scene, const Primitive* primitive, int material) {
+  const Material& m = scene.materials[material];
   const bool textured = m.base_color_texture || m.metallic_roughness_texture || m.normal_texture ||
                         m.emission_texture || m.specular_texture || m.specular_color_texture;
-  return {.primitive = &primitive,
+  const bool colored = primitive && !primitive->colors.empty();
+  return {.primitive = primitive,
           .material = &m,
-          .material_index = primitive.material,
+          .material_index = material,
           .needs_uv = textured,
-          .needs_color = !primitive.colors.empty(),
+          .needs_color = colored,
           .needs_tangent = bool(m.normal_texture),
           .emissive = !is_black(m.emission) && !m.unlit,
-          .alpha = has_alpha(m, primitive),
+          .alpha = has_alpha(m, colored),
           .bounds = {}};
 }
 
@@ -44,6 +50,22 @@ float condition_number(const Mat4d& matrix) {
 }
 
 bool is_identity(const Affine& a) { return a == Affine{}; }
+
+/// The factor by which the map scales all lengths; 0 where it does not scale all alike, but for rounding.
+float uniform_scale(const Affine& a) {
+  constexpr double kTolerance = 3e-7;
+  const Vec3d x(a.x), y(a.y), z(a.z);
+  const double xx = x.dot(x), least = kTolerance * xx;
+  const bool uniform = std::abs(y.dot(y) - xx) <= least && std::abs(z.dot(z) - xx) <= least &&
+                       std::abs(x.dot(y)) <= least && std::abs(y.dot(z)) <= least &&
+                       std::abs(z.dot(x)) <= least;
+  return uniform ? float(std::sqrt(xx)) : 0;
+}
+
+Solid to_solid(const Shape& shape) {
+  if (shape.kind == ShapeKind::sphere) return Sphere{shape.radius};
+  return Frustum{shape.radius_bottom, shape.radius_top, shape.height};
+}
 
 /// The map with its scale and shear taken out: x, y and z orthonormal, z keeping its direction.
 Affine orthonormal(const Affine& a) {
@@ -100,7 +122,8 @@ class WorldBuilder {
   WorldBuilder(const Scene& scene, const World* same_meshes) : scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
       first_part_.push_back(std::uint32_t(world_.parts.size()));
-      for (const Primitive& primitive : mesh.primitives) world_.parts.push_back(make_part(scene, primitive));
+      for (const Primitive& primitive : mesh.primitives)
+        world_.parts.push_back(make_part(scene, &primitive, primitive.material));
     }
     parallel_for(world_.parts.size(), 1, [&](std::size_t i) {
       Part& part = world_.parts[i];
@@ -117,24 +140,33 @@ class WorldBuilder {
 
  private:
   void add_node(const Node& node, int index, const Mat4d& to_world) {
-    if (node.mesh != kNone) {
-      if (node.instances.empty()) add_mesh(node.mesh, index, to_world);
-      for (const Transform& instance : node.instances)
-        add_mesh(node.mesh, index, instance.to_matrix() * to_world);
-    }
+    if (node.instances.empty()) add_geometry(node, index, to_world);
+    for (const Transform& instance : node.instances)
+      add_geometry(node, index, instance.to_matrix() * to_world);
     if (node.light != kNone) add_light(scene_.lights[node.light], index, to_affine(to_world));
+  }
+
+  void add_geometry(const Node& node, int index, const Mat4d& to_world) {
+    // A scale of zero along an axis leaves nothing that a ray could hit: the node is hidden.
+    if (to_affine(to_world).determinant() == 0) return;
+    if (node.mesh != kNone) add_mesh(node.mesh, index, to_world);
+    if (node.shape == kNone) return;
+    const ShapeKind kind = scene_.shapes[node.shape].kind;
+    if (kind == ShapeKind::box || kind == ShapeKind::plane)
+      add_mesh(shape_mesh(node.shape, node.shape_material), index, to_world);
+    else
+      add_solid(node, index, to_affine(to_world));
   }
 
   void add_mesh(int mesh, int node, const Mat4d& matrix) {
     const Affine to_world = to_affine(matrix);
-    // A scale of zero along an axis leaves nothing that a ray could hit: the node is hidden.
-    if (to_world.determinant() == 0) return;
     const bool identity = is_identity(to_world);
-    world_.placements.push_back({to_world, node, mesh, first_part_[mesh], world_.slot_count,
+    const auto parts = std::uint32_t(world_.mesh(scene_, mesh).primitives.size());
+    world_.placements.push_back({to_world, node, mesh, first_part_[mesh], parts, world_.slot_count,
                                  identity ? 0 : condition_number(matrix),
                                  max_component(abs(to_world.x) + abs(to_world.y) + abs(to_world.z)),
                                  max_component(abs(to_world.origin)), identity});
-    for (std::size_t i = 0; i < scene_.meshes[mesh].primitives.size(); ++i) {
+    for (std::size_t i = 0; i < parts; ++i) {
       const Box3f& box = world_.parts[first_part_[mesh] + i].bounds;
       if (box.isEmpty()) continue;
       for (int corner = 0; corner < 8; ++corner)
@@ -142,7 +174,33 @@ class WorldBuilder {
             to_world.point({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                             corner & 4 ? box.max.z : box.min.z}));
     }
-    world_.slot_count += std::uint32_t(scene_.meshes[mesh].primitives.size());
+    world_.slot_count += parts;
+  }
+
+  /// The mesh of a box or plane, made when it is first drawn with that material.
+  int shape_mesh(int shape, int material) {
+    const auto [known, is_new] = shape_meshes_.try_emplace({shape, material}, int(world_.mesh_count(scene_)));
+    if (is_new) {
+      Mesh mesh;
+      mesh.primitives.push_back(make_shape_primitive(scene_.shapes[shape], material));
+      world_.shape_meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+      const Primitive& primitive = world_.shape_meshes.back()->primitives[0];
+      first_part_.push_back(std::uint32_t(world_.parts.size()));
+      world_.parts.push_back(make_part(scene_, &primitive, material));
+      world_.parts.back().bounds = vertex_bounds(primitive);
+    }
+    return known->second;
+  }
+
+  void add_solid(const Node& node, int index, const Affine& to_world) {
+    const auto [part, is_new] =
+        solid_parts_.try_emplace(node.shape_material, std::uint32_t(world_.solid_parts.size()));
+    if (is_new) world_.solid_parts.push_back(make_part(scene_, nullptr, node.shape_material));
+    const Shape& shape = scene_.shapes[node.shape];
+    const float round_radius = shape.kind == ShapeKind::sphere ? shape.radius * uniform_scale(to_world) : 0;
+    world_.solids.push_back(
+        {to_solid(shape), to_world, inverse(to_world), index, part->second, round_radius});
+    world_.bounds.extendBy(bounds(world_.solids.back().solid, to_world));
   }
 
   void add_light(const Light& light, int node, const Affine& to_world) {
@@ -160,17 +218,20 @@ class WorldBuilder {
   const Scene& scene_;
   World world_;
   std::vector<std::uint32_t> first_part_;
+  std::map<std::pair<int, int>, int> shape_meshes_;  // by shape and material
+  std::map<int, std::uint32_t> solid_parts_;         // by material
 };
 
 bool has_light(const Scene& scene, const World& world) {
   if (!world.area_lights.empty() || !world.punctual_lights.empty() || !is_black(scene.environment.radiance))
     return true;
   for (const Placement& p : world.placements)
-    for (std::size_t i = 0; i < scene.meshes[p.mesh].primitives.size(); ++i) {
-      const Part& part = world.part(std::uint32_t(&p - world.placements.data()), std::uint32_t(i));
+    for (std::uint32_t i = 0; i < p.part_count; ++i) {
+      const Part& part = world.parts[p.first_part + i];
       if (part.emissive || part.material->unlit) return true;
     }
-  return false;
+  return std::ranges::any_of(world.solid_parts,
+                             [](const Part& part) { return part.emissive || part.material->unlit; });
 }
 
 /// A camera of 40 degrees, 30 degrees to the side and 20 above, that has the bounding sphere in its view.

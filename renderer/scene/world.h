@@ -3,16 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/scene.h"
+#include "renderer/shapes/solid.h"
 
 namespace parian {
 
-/// One primitive of one mesh, resolved, with what a hit on it needs.
+/// One primitive of one mesh, or the surface of a solid, resolved, with what a hit on it needs.
 struct Part {
-  const Primitive* primitive;
+  const Primitive* primitive;  // null for a solid
   const Material* material;
   int material_index;
   bool needs_uv;       // a texture of the material will be looked up
@@ -20,14 +22,15 @@ struct Part {
   bool needs_tangent;  // there is a normal map
   bool emissive;
   bool alpha;    // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
-  Box3f bounds;  // in object space
+  Box3f bounds;  // in object space; of a solid empty
 };
 
 /// A mesh drawn once.
 struct Placement {
   Affine to_world;
-  int node, mesh;
+  int node, mesh;            // a mesh of the scene, or, from their number on, one of World::shape_meshes
   std::uint32_t first_part;  // World::parts[first_part + primitive]
+  std::uint32_t part_count;
   std::uint32_t first_slot;  // numbers all primitives of all placements in order
   // Rounding: what the map to object space and back does to a point, as a multiple of its coordinates, is
   // bounded by the largest row sum of |M| |M^-1| (Higham, 7.1), and the coordinates by those in object space
@@ -37,6 +40,17 @@ struct Placement {
 
   /// Bounds the world-space coordinates that rounding works on, from those in object space.
   float extent(float object_extent) const { return (1 + condition) * (growth * object_extent + reach); }
+};
+
+/// A sphere or frustum drawn once.
+struct PlacedSolid {
+  Solid solid;
+  Affine to_world;
+  Affined to_object;  // the inverse of to_world as it is in single precision
+  int node;
+  std::uint32_t part;  // World::solid_parts
+  // A sphere that to_world leaves a sphere: of this radius, about to_world.origin. Else 0.
+  float round_radius;
 };
 
 /// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and
@@ -66,12 +80,20 @@ struct CameraPlacement {
 struct World {
   std::vector<Part> parts;
   std::vector<Placement> placements;
+  std::vector<Part> solid_parts;
+  std::vector<PlacedSolid> solids;
+  std::vector<std::shared_ptr<const Mesh>> shape_meshes;  // boxes and planes
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
   std::vector<CameraPlacement> cameras;
   std::uint32_t slot_count = 0;
-  Box3f bounds;  // of all placed vertices and area lights; empty where there are none
+  Box3f bounds;  // of all placed vertices, solids and area lights; empty where there are none
 
+  const Mesh& mesh(const Scene& scene, int index) const {
+    const std::size_t i = std::size_t(index), count = scene.meshes.size();
+    return i < count ? scene.meshes[i] : *shape_meshes[i - count];
+  }
+  std::size_t mesh_count(const Scene& scene) const { return scene.meshes.size() + shape_meshes.size(); }
   const Part& part(std::uint32_t placement, std::uint32_t primitive) const {
     return parts[placements[placement].first_part + primitive];
   }

@@ -207,9 +207,15 @@ void Session::update(std::shared_ptr<const Scene> scene, unsigned changed) {
 void Session::retrace(std::shared_ptr<const Scene> scene, unsigned changed) {
   auto world =
       std::make_unique<World>(make_world(*scene, changed & kChangedGeometry ? nullptr : world_.get()));
+  // Whether a solid is in the geometry of the round spheres.
+  const auto same_kind = [](const PlacedSolid& a, const PlacedSolid& b) {
+    return a.part == b.part && (a.round_radius > 0) == (b.round_radius > 0);
+  };
   // Alpha decides which geometries are filtered, and a scale of zero removes a placement.
   const auto same_structure = [&] {
     return std::ranges::equal(world->parts, world_->parts, {}, &Part::alpha, &Part::alpha) &&
+           std::ranges::equal(world->solid_parts, world_->solid_parts, {}, &Part::alpha, &Part::alpha) &&
+           std::ranges::equal(world->solids, world_->solids, same_kind) &&
            std::ranges::equal(world->placements, world_->placements, {}, &Placement::mesh,
                               &Placement::mesh) &&
            world->area_lights.size() == world_->area_lights.size();

@@ -117,6 +117,39 @@ inline int add_mesh(Scene& scene, Primitive primitive, int material, const Trans
   return add_root(scene, node);
 }
 
+/// Adds a shape and a root node that shows it with the material; returns the node's index.
+inline int add_shape(Scene& scene, Shape shape, int material, const Transform& transform = {}) {
+  scene.shapes.push_back(std::move(shape));
+  Node node;
+  node.shape = int(scene.shapes.size()) - 1;
+  node.shape_material = material;
+  node.transform = transform;
+  return add_root(scene, node);
+}
+
+inline Shape make_sphere(float radius) {
+  Shape s;
+  s.radius = radius;
+  return s;
+}
+
+inline Shape make_cylinder(float radius_bottom, float radius_top, float height) {
+  Shape s;
+  s.kind = ShapeKind::cylinder;
+  s.radius_bottom = radius_bottom;
+  s.radius_top = radius_top;
+  s.height = height;
+  return s;
+}
+
+/// A box, or a plane of sides size.x and size.z.
+inline Shape make_flat_shape(ShapeKind kind, const Vec3f& size) {
+  Shape s;
+  s.kind = kind;
+  s.size = size;
+  return s;
+}
+
 /// Adds a light and a root node that holds it; returns the node's index.
 inline int add_light(Scene& scene, Light light, const Transform& transform = {}) {
   scene.lights.push_back(std::move(light));

@@ -62,11 +62,14 @@ Scene small_scene(const std::string& name) {
   primitive.triangles = std::vector<Triangle>{{0, 1, 2}};
   primitive.material = 0;
   scene.meshes = {{.name = name, .primitives = {primitive}}};
+  scene.shapes.emplace_back().name = name;
   scene.cameras.emplace_back().name = name;
   scene.lights.emplace_back().name = name;
   scene.nodes.resize(2);
   scene.nodes[0].children = {1};
   scene.nodes[1].mesh = scene.nodes[1].camera = scene.nodes[1].light = 0;
+  scene.nodes[1].shape = 0;
+  scene.nodes[1].shape_material = 1;
   scene.roots = {0};
   scene.environment.image = 0;
   return scene;
@@ -80,6 +83,9 @@ TEST(Append, ShiftsEveryIndex) {
   EXPECT_EQ(scene.nodes[2].children, std::vector<int>{3});
   EXPECT_EQ(scene.nodes[2].mesh, kNone);
   EXPECT_EQ(scene.meshes.at(std::size_t(scene.nodes[3].mesh)).name, "b");
+  EXPECT_EQ(scene.nodes[2].shape, kNone);
+  EXPECT_EQ(scene.shapes.at(std::size_t(scene.nodes[3].shape)).name, "b");
+  EXPECT_EQ(scene.nodes[3].shape_material, 3);
   EXPECT_EQ(scene.cameras.at(std::size_t(scene.nodes[3].camera)).name, "b");
   EXPECT_EQ(scene.lights.at(std::size_t(scene.nodes[3].light)).name, "b");
   const Material& material = scene.materials.at(std::size_t(scene.meshes[1].primitives[0].material));

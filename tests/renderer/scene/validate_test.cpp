@@ -41,7 +41,12 @@ Scene good_scene() {
   scene.lights.resize(3);
   scene.lights[1].kind = LightKind::spot;
   scene.lights[2].kind = LightKind::rectangle;
+  scene.shapes.resize(4);
+  scene.shapes[1].kind = ShapeKind::cylinder;
+  scene.shapes[2].kind = ShapeKind::box;
+  scene.shapes[3].kind = ShapeKind::plane;
   scene.nodes.resize(3);
+  scene.nodes[2].shape = scene.nodes[2].shape_material = 0;
   scene.nodes[0].children = {1};
   scene.nodes[1].mesh = scene.nodes[1].camera = scene.nodes[1].light = 0;
   scene.nodes[1].instances.resize(2);
@@ -196,8 +201,30 @@ TEST(Validate, RefusesBadCamerasAndLights) {
   });
 }
 
+TEST(Validate, RefusesBadShapes) {
+  expect_refused({
+      {[](Scene& s) { s.shapes[0].radius = 0; }, "/shapes/0/radius"},
+      {[](Scene& s) { s.shapes[0].radius = -1; }, "/shapes/0/radius"},
+      {[](Scene& s) { s.shapes[0].radius = kNan; }, "/shapes/0/radius"},
+      {[](Scene& s) { s.shapes[0].radius = 1e-39f; }, "/shapes/0/radius"},  // no normal float
+      {[](Scene& s) { s.shapes[1].radius_top = -1; }, "/shapes/1/radius_top"},
+      {[](Scene& s) { s.shapes[1].radius_bottom = kNan; }, "/shapes/1/radius_bottom"},
+      {[](Scene& s) { s.shapes[1].radius_bottom = s.shapes[1].radius_top = 0; }, "/shapes/1/radius_top"},
+      {[](Scene& s) { s.shapes[1].height = 0; }, "/shapes/1/height"},
+      {[](Scene& s) { s.shapes[2].size.y = 0; }, "/shapes/2/size"},
+      {[](Scene& s) { s.shapes[3].size.z = kInfinity; }, "/shapes/3/size"},
+  });
+  Scene scene = good_scene();
+  scene.shapes[3].size.y = 0;  // a plane has no height
+  scene.shapes[1].radius_top = 0;
+  EXPECT_EQ(refusal(scene), "");
+}
+
 TEST(Validate, RefusesBadNodes) {
   expect_refused({
+      {[](Scene& s) { s.nodes[2].shape = 4; }, "/nodes/2/shape"},
+      {[](Scene& s) { s.nodes[2].shape_material = kNone; }, "/nodes/2/shape_material"},
+      {[](Scene& s) { s.nodes[2].shape_material = 1; }, "/nodes/2/shape_material"},
       {[](Scene& s) { s.nodes[0].transform.translation.x = kNan; }, "/nodes/0/transform/translation"},
       {[](Scene& s) { s.nodes[0].transform.rotation = Quatf(2, 0, 0, 0); }, "/nodes/0/transform/rotation"},
       {[](Scene& s) { s.nodes[0].transform.scale.y = kInfinity; }, "/nodes/0/transform/scale"},

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
 /// Something of everything: a textured floor, boxes drawn once and twice, a blended pane, lights of all
-/// kinds, a lens.
+/// kinds, a lens, solids that emit, reflect and blend, a box without a mesh.
 Scene everything() {
   Scene scene;
   Material checks = make_lambert({0.8f, 0.8f, 0.8f});
@@ -47,6 +47,11 @@ Scene everything() {
   camera.lens = Lens{};
   camera.lens->focus_distance = 4;
   add_camera(scene, camera, look_along({1, 1.5f, 4}, normalize(Vec3f(-0.25f, -0.3f, -1))));  // 7
+  add_shape(scene, make_sphere(0.25f), add_material(scene, make_emitter({1, 3, 2})),
+            translate({0.2f, 0.4f, 0.9f}));                                                       // 8
+  add_shape(scene, make_cylinder(0.3f, 0.1f, 0.6f), 1, translate({-0.6f, 0.3f, 0.9f}));           // 9
+  add_shape(scene, make_flat_shape(ShapeKind::box, Vec3f(0.3f)), 1, translate({1, 0.2f, 0.6f}));  // 10
+  add_shape(scene, make_sphere(0.2f), 2, translate({-0.2f, 0.9f, 0.6f}));                         // 11
   return scene;
 }
 
@@ -189,7 +194,7 @@ TEST(Session, ProgressGrowsToTheEnd) {
   EXPECT_GT(stats.rays.scattered, 0u);
   EXPECT_EQ(stats.rays.dropped, 0u);
   EXPECT_GT(stats.render_seconds, 0);
-  EXPECT_EQ(stats.triangles, 2u + 12 + 2 + 2 * 8 * 14);
+  EXPECT_EQ(stats.triangles, 2u + 12 + 2 + 2 * 8 * 14 + 12);
 }
 
 /// A white room that light leaves slowly: long paths, large pictures.
@@ -409,6 +414,20 @@ std::vector<Edit> edits() {
          s.nodes[0].transform = translate({0, 0.2f, 0}), s.nodes[4].transform = translate({-1, 1, 0});
        },
        true, false, true, true},
+      {"solids moved", kChangedTransforms,
+       [](Scene& s) {
+         s.nodes[8].transform = translate({0.5f, 0.6f, 0.9f}), s.nodes[9].transform.scale = {1, 1, 2};
+         s.nodes[11].transform = translate({-0.3f, 0.8f, 0.5f});
+       },
+       false, false, true, true},
+      {"sphere squeezed", kChangedTransforms,
+       [](Scene& s) {
+         s.nodes[8].transform.scale = {1, 2, 1};
+       },
+       true, true, true, true},
+      {"solid reshaped", kChangedGeometry,
+       [](Scene& s) { s.shapes[0].radius = 0.4f, s.shapes[1].radius_top = 0, s.shapes[2].size.y = 0.6f; },
+       true, true, true, true},
       {"mesh hidden", kChangedTransforms,
        [](Scene& s) {
          s.nodes[1].transform.scale = {0, 0, 0};
