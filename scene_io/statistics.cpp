@@ -8,7 +8,7 @@ namespace parian {
 namespace {
 
 // Embree's medium-quality BVH with its own copy of triangles and vertices, measured: docs/measurements.md.
-constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600, kAccelBytesPerSolid = 100;
+constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600, kAccelBytesPerSolid = 110;
 
 std::size_t bytes_of(const Primitive& p) {
   return p.positions.bytes() + p.normals.bytes() + p.tangents.bytes() + p.uvs[0].bytes() + p.uvs[1].bytes() +

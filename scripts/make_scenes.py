@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gltf_builder import Gltf, to_json
-from scene_recipes import cabinet, classics, furnaces, garden, lens, single_lights, still_life, sunlight
+from scene_recipes import cabinet, classics, furnaces, garden, lens, shapes, single_lights, still_life, sunlight
 
 SCENES = {
     "cornell-box": classics.cornell_box,
@@ -23,6 +23,7 @@ SCENES = {
     "environment-sun": sunlight.environment_sun,
     "textured": still_life.textured,
     "instances": garden.instances,
+    "shapes-still-life": shapes.shapes_still_life,
     "furnace-sphere": furnaces.furnace_sphere,
     "furnace-box": furnaces.furnace_box,
     "environment-gradient": furnaces.environment_gradient,
@@ -31,6 +32,8 @@ SCENES = {
     "light-directional": single_lights.light_directional,
     "light-rectangle": single_lights.light_rectangle,
     "light-disk": single_lights.light_disk,
+    "shapes-furnace": shapes.shapes_furnace,
+    "shapes-scales": shapes.shapes_scales,
 }
 
 

@@ -152,14 +152,15 @@ struct Accel::Impl {
       throw std::runtime_error(fmt::format("Embree: {} failed with error {}", what, int(error)));
   }
 
-  /// `g`: what Embree reports as the normal.
+  /// `normal()` is what Embree reports as the normal.
+  template <class Normal>
   Hit to_hit(float t, float u, float v, unsigned instance, unsigned geometry, unsigned triangle,
-             const Vec3f& g) const {
+             const Normal& normal) const {
     if (geometry == kInvalid) return {t, u, v, Hit::kMiss, 0, 0, 0};
     const bool instanced = instance != kInvalid;
     const TopEntry& entry = entries[instanced ? instance : geometry];
     if (entry.placement == Hit::kSolid) [[unlikely]]
-      return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, g);
+      return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, normal());
     return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle, 0};
   }
 
@@ -345,7 +346,7 @@ bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
   r.hit.instID[0] = kInvalid;
   embree_intersect(impl_->top, r, query);
   hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID,
-                      {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
+                      [&] { return Vec3f(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z); });
   return hit.placement != Hit::kMiss;
 }
 
@@ -365,8 +366,9 @@ void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& 
   std::ranges::fill(r.hit.instID[0], kInvalid);
   embree_intersect(impl_->top, lanes.valid, r, query);
   for (int i = 0; i < rays.count; ++i)
-    hits[i] = impl_->to_hit(r.ray.tfar[i], r.hit.u[i], r.hit.v[i], r.hit.instID[0][i], r.hit.geomID[i],
-                            r.hit.primID[i], {r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]});
+    hits[i] =
+        impl_->to_hit(r.ray.tfar[i], r.hit.u[i], r.hit.v[i], r.hit.instID[0][i], r.hit.geomID[i],
+                      r.hit.primID[i], [&] { return Vec3f(r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]); });
 }
 
 std::uint32_t Accel::occluded(const RayPacket& rays) const {

@@ -119,7 +119,7 @@ std::vector<SolidGeometry> sort_solids(const World& world) {
   SolidGeometry round, mapped;
   for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
     const PlacedSolid& placed = world.solids[i];
-    const bool is_round = placed.round_radius > 0 && !world.solid_parts[placed.part].alpha;
+    const bool is_round = placed.is_round() && !world.solid_parts[placed.part].alpha;
     (is_round ? round : mapped).solids.push_back(i);
   }
   round.round.resize(round.solids.size());
@@ -138,7 +138,7 @@ void fill_solids(SolidGeometry& geometry, const World& world) {
   for (std::size_t i = 0; i < geometry.solids.size(); ++i) {
     const PlacedSolid& placed = world.solids[geometry.solids[i]];
     if (geometry.round.empty())
-      geometry.mapped[i] = {placed.to_object, placed.solid, world.solid_parts[placed.part].alpha};
+      geometry.mapped[i] = {inverse(placed.to_world), placed.solid, world.solid_parts[placed.part].alpha};
     else
       geometry.round[i] = {placed.to_world.origin, placed.round_radius};
   }
@@ -157,11 +157,7 @@ RTCGeometry new_solid_geometry(RTCDevice device, SolidGeometry& geometry) {
 
 Hit to_solid_hit(const SolidGeometry& geometry, float t, unsigned primitive, float face, const Vec3f& g) {
   const std::uint32_t index = geometry.solids[primitive];
-  Vec3f point = g;
-  if (!geometry.round.empty()) {
-    const PlacedSolid& placed = geometry.world->solids[index];
-    point = project(placed.solid, placed.to_object.vector(Vec3d(g)), Face::side);
-  }
+  const Vec3f point = geometry.round.empty() ? g : geometry.world->solids[index].round_point(g);
   return {t, point.x, point.y, Hit::kSolid | index, 0, std::uint32_t(face), point.z};
 }
 

@@ -1,7 +1,6 @@
 /// The solids of a world as Embree user geometry: one geometry for all spheres that are round in world space,
 /// as centre and radius, and one for all other solids, whose rays are taken to the solid's own space. Nothing
-/// is instanced: an instance costs some 600 bytes and turns the ray in single precision
-/// (docs/measurements.md).
+/// is instanced: that costs twice the memory and turns the rays in single precision (docs/measurements.md).
 #pragma once
 
 #include <cstdint>

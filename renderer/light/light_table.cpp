@@ -115,7 +115,7 @@ float LightTable::power(const EmissiveTriangle& e) const {
 
 float LightTable::power(const PlacedSolid& placed) const {
   const double world_area =
-      placed.round_radius > 0 ? area(Sphere{placed.round_radius}) : area(placed.solid, placed.to_world);
+      placed.is_round() ? area(Sphere{placed.round_radius}) : area(placed.solid, placed.to_world);
   return kPi * float(world_area) *
          mean_emission(*world_->solid_parts[placed.part].material,
                        [&](const Vec2f& u) { return solid_uvs(placed, sample_surface(placed.solid, u)); });
@@ -179,14 +179,14 @@ std::optional<LightSample> LightTable::sample_solid(const PlacedSolid& placed, f
   const Material& material = *world_->solid_parts[placed.part].material;
   std::optional<LightSample> s;
   SurfaceSample point;  // in the space of the solid
-  if (placed.round_radius > 0) {
+  if (placed.is_round()) {
     const Vec3f center = placed.to_world.origin;
     const auto seen = sample_directions(center, placed.round_radius, p, u);
     if (!seen || !usable(seen->pdf)) return std::nullopt;
     const float cosine = -seen->w.dot(seen->normal);
     if (!material.double_sided && cosine <= 0) return std::nullopt;
     const Vec3f from_center = seen->normal * placed.round_radius;
-    point = {Vec3f(placed.to_object.vector(Vec3d(from_center))), Face::side};
+    point = {placed.round_point(seen->normal), Face::side};
     const float offset = std::copysign(solid_offset(placed.to_world, point.p), cosine);
     s = LightSample{seen->w, Rgb(0, 0, 0), probability * seen->pdf,
                     false,   false,        center + from_center + seen->normal * offset};
@@ -255,8 +255,7 @@ float LightTable::pdf_triangle(const Hit& hit, float cosine) const {
 float LightTable::pdf_solid(const Hit& hit, const Vec3f& origin, float cosine) const {
   const PlacedSolid& placed = world_->solids[hit.solid()];
   const float chosen = choice(first_solid_ + int(solid_lights_[hit.solid()]));
-  if (placed.round_radius > 0)
-    return chosen * pdf_directions(placed.to_world.origin, placed.round_radius, origin);
+  if (placed.is_round()) return chosen * pdf_directions(placed.to_world.origin, placed.round_radius, origin);
   const Vec3f normal = surface_point(placed.solid, {hit.u, hit.v, hit.w}, Face(hit.triangle)).normal;
   return chosen * hit.t * hit.t / (area(placed.solid) * placed.to_world.normal(normal).length() * cosine);
 }

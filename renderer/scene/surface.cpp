@@ -72,42 +72,18 @@ Vec3f map_normal(const Scene& scene, const Surface& s, const Vec3f& n, const Tan
   return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
 }
 
-/// Turns a shading normal towards the viewer, and makes the frame around it.
-void set_frame(Surface& s, Vec3f ns) {
+/// Turns a shading normal towards the viewer, and makes the frame around it. (Inlined at both of its calls,
+/// or meshes would pay for there being solids.)
+[[gnu::always_inline]] inline void set_frame(Surface& s, Vec3f ns) {
   if (!s.front) ns = -ns;
   // A shading normal that faces away from the viewer cannot be shaded: the geometric one takes its place.
   if (s.wo.dot(ns) <= 0) ns = s.front ? s.ng : -s.ng;
   s.frame = make_frame(ns);
 }
 
-[[gnu::noinline]] Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hit,
-                                             const Vec3f& d) {
-  const PlacedSolid& placed = world.solids[hit.solid()];
-  const Vec3f local(hit.u, hit.v, hit.w);
-  const SolidPoint point = surface_point(placed.solid, local, Face(hit.triangle));
-  Surface s;
-  s.part = &world.solid_parts[placed.part];
-  s.wo = -d;
-  const Affine& m = placed.to_world;
-  s.p = Vec3f(Affined{Vec3d(m.x), Vec3d(m.y), Vec3d(m.z), Vec3d(m.origin)}.point(Vec3d(local)));
-  s.ng = direction_of(m.normal(point.normal), s.wo);
-  s.offset = solid_offset(m, local);
-  s.front = s.wo.dot(s.ng) >= 0;
-  s.uvs = {point.uv, point.uv};
-  s.color = Vec4f(1);
-  Vec3f ns = s.ng;
-  if (s.part->needs_tangent) {
-    const float sign = m.determinant() < 0 ? -1.0f : 1.0f;
-    ns = map_normal(scene, s, ns, {m.vector(point.dpdu), sign});
-  }
-  set_frame(s, ns);
-  return s;
-}
-
 }  // namespace
 
-Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
-  if (hit.is_solid()) return make_solid_surface(scene, world, hit, d);
+Surface make_mesh_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
   const Placement& placement = world.placements[hit.placement];
   const Part& part = world.parts[placement.first_part + hit.primitive];
   const Primitive& primitive = *part.primitive;
@@ -143,6 +119,29 @@ Surface make_surface(const Scene& scene, const World& world, const Hit& hit, con
   }
   if (part.needs_tangent)
     ns = map_normal(scene, s, ns, triangle_tangent(*part.material, primitive, placement, hit, ns, e1, e2));
+  set_frame(s, ns);
+  return s;
+}
+
+Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
+  const PlacedSolid& placed = world.solids[hit.solid()];
+  const Vec3f local(hit.u, hit.v, hit.w);
+  const SolidPoint point = surface_point(placed.solid, local, Face(hit.triangle));
+  Surface s;
+  s.part = &world.solid_parts[placed.part];
+  s.wo = -d;
+  const Affine& m = placed.to_world;
+  s.p = Vec3f(Affined{Vec3d(m.x), Vec3d(m.y), Vec3d(m.z), Vec3d(m.origin)}.point(Vec3d(local)));
+  s.ng = direction_of(m.normal(point.normal), s.wo);
+  s.offset = solid_offset(m, local);
+  s.front = s.wo.dot(s.ng) >= 0;
+  s.uvs = {point.uv, point.uv};
+  s.color = Vec4f(1);
+  Vec3f ns = s.ng;
+  if (s.part->needs_tangent) {
+    const float sign = m.determinant() < 0 ? -1.0f : 1.0f;
+    ns = map_normal(scene, s, ns, {m.vector(point.dpdu), sign});
+  }
   set_frame(s, ns);
   return s;
 }

@@ -35,8 +35,13 @@ struct Surface {
   Vec4f color;               // vertex colour, white where there is none
 };
 
-/// The surface at a hit (on a mesh or solid) by a ray of unit direction d.
-Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d);
+/// The surface at a hit on a mesh by a ray of unit direction d, and that at a hit on a solid.
+Surface make_mesh_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d);
+Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d);
+/// Whichever it is.
+inline Surface make_surface(const Scene& scene, const World& world, const Hit& hit, const Vec3f& d) {
+  return hit.is_solid() ? make_solid_surface(scene, world, hit, d) : make_mesh_surface(scene, world, hit, d);
+}
 
 /// The node that shows what was hit, which is not nothing.
 int hit_node(const World& world, const Hit& hit);

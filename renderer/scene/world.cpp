@@ -140,6 +140,8 @@ class WorldBuilder {
 
  private:
   void add_node(const Node& node, int index, const Mat4d& to_world) {
+    if (node.shape != kNone && node.instances.size() > world_.solids.capacity())
+      world_.solids.reserve(world_.solids.size() + node.instances.size());
     if (node.instances.empty()) add_geometry(node, index, to_world);
     for (const Transform& instance : node.instances)
       add_geometry(node, index, instance.to_matrix() * to_world);
@@ -198,8 +200,7 @@ class WorldBuilder {
     if (is_new) world_.solid_parts.push_back(make_part(scene_, nullptr, node.shape_material));
     const Shape& shape = scene_.shapes[node.shape];
     const float round_radius = shape.kind == ShapeKind::sphere ? shape.radius * uniform_scale(to_world) : 0;
-    world_.solids.push_back(
-        {to_solid(shape), to_world, inverse(to_world), index, part->second, round_radius});
+    world_.solids.push_back({to_solid(shape), to_world, index, part->second, round_radius});
     world_.bounds.extendBy(bounds(world_.solids.back().solid, to_world));
   }
 

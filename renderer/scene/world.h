@@ -46,11 +46,17 @@ struct Placement {
 struct PlacedSolid {
   Solid solid;
   Affine to_world;
-  Affined to_object;  // the inverse of to_world as it is in single precision
   int node;
   std::uint32_t part;  // World::solid_parts
   // A sphere that to_world leaves a sphere: of this radius, about to_world.origin. Else 0.
   float round_radius;
+
+  bool is_round() const { return round_radius > 0; }
+  /// The point, in the solid's own space, where the unit normal of a round sphere is n in world space.
+  Vec3f round_point(const Vec3f& n) const {
+    // But for a factor the map is its own inverse transpose.
+    return project(solid, {n.dot(to_world.x), n.dot(to_world.y), n.dot(to_world.z)}, Face::side);
+  }
 };
 
 /// A rectangle or disk light, in world space. It emits from the side its normal points to, and is black and

@@ -209,7 +209,7 @@ void Session::retrace(std::shared_ptr<const Scene> scene, unsigned changed) {
       std::make_unique<World>(make_world(*scene, changed & kChangedGeometry ? nullptr : world_.get()));
   // Whether a solid is in the geometry of the round spheres.
   const auto same_kind = [](const PlacedSolid& a, const PlacedSolid& b) {
-    return a.part == b.part && (a.round_radius > 0) == (b.round_radius > 0);
+    return a.part == b.part && a.is_round() == b.is_round();
   };
   // Alpha decides which geometries are filtered, and a scale of zero removes a placement.
   const auto same_structure = [&] {

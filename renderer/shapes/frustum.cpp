@@ -71,7 +71,7 @@ std::optional<Chord> intersect(const Frustum& f, const Vec3d& o, const Vec3d& d)
 
   Span span;
   if (d.y != 0) {
-    const double to_bottom = (-half - n.y) / d.y, to_top = (half - n.y) / d.y;
+    const double scale = 1 / d.y, to_bottom = (-half - n.y) * scale, to_top = (half - n.y) * scale;
     const bool up = d.y > 0;
     span.after(up ? to_bottom : to_top, up ? Face::bottom : Face::top);
     span.before(up ? to_top : to_bottom, up ? Face::top : Face::bottom);
@@ -88,7 +88,7 @@ std::optional<Chord> intersect(const Frustum& f, const Vec3d& o, const Vec3d& d)
 }
 
 Vec3f project(const Frustum& f, const Vec3d& p, Face face) {
-  const double half = 0.5 * f.height, across = std::hypot(p.x, p.z);
+  const double half = 0.5 * f.height, across = std::sqrt(p.x * p.x + p.z * p.z);
   if (face == Face::side) {
     const double y = std::clamp(p.y, -half, half), radius = std::max(0.0, mean_radius(f) + slope(f) * y);
     if (across == 0) return Vec3f(Vec3d(0, y, radius));

@@ -12,15 +12,16 @@ struct Sphere {
   float radius;  // > 0
 };
 
-/// The crossings of the line o + t d, d not zero and of any length; nothing where it misses or touches.
-/// Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection: the discriminant from the point of
-/// closest approach, and the roots without a difference of like numbers.
+/// The crossings of the line o + t d, d not zero and of any length; nothing where it misses or touches. The
+/// discriminant from the distance of the line to the centre, and the roots without a difference of like
+/// numbers (Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection; their point of closest
+/// approach is d x (o x d) / d.d, and what misses needs no division).
 inline std::optional<Chord> intersect(const Sphere& s, const Vec3d& o, const Vec3d& d) {
+  const Vec3d across = o.cross(d);
   const double a = d.dot(d), b = -o.dot(d), r2 = double(s.radius) * s.radius;
-  const Vec3d nearest = o + d * (b / a);
-  const double discriminant = r2 - nearest.dot(nearest);
+  const double discriminant = a * r2 - across.dot(across);
   if (!(discriminant > 0)) return std::nullopt;
-  const double c = o.dot(o) - r2, q = b + std::copysign(std::sqrt(a * discriminant), b);
+  const double c = o.dot(o) - r2, q = b + std::copysign(std::sqrt(discriminant), b);
   const double t0 = c / q, t1 = q / a;
   return Chord{{std::min(t0, t1), Face::side}, {std::max(t0, t1), Face::side}};
 }

@@ -55,7 +55,8 @@ std::optional<Nearest> brute_force(const World& world, const Ray& ray) {
   std::optional<Nearest> best;
   for (std::uint32_t i = 0; i < world.solids.size(); ++i) {
     const PlacedSolid& s = world.solids[i];
-    const auto chord = intersect(s.solid, s.to_object.point(Vec3d(ray.o)), s.to_object.vector(Vec3d(ray.d)));
+    const Affined in = inverse(s.to_world);
+    const auto chord = intersect(s.solid, in.point(Vec3d(ray.o)), in.vector(Vec3d(ray.d)));
     if (!chord) continue;
     for (const Crossing& c : {chord->enter, chord->leave})
       if (c.t > 0 && c.t < ray.tmax && (!best || c.t < best->t)) best = Nearest{c.t, i, c.face};
@@ -155,7 +156,7 @@ void leave_solids(int solids, int rays, std::uint32_t seed) {
         // Where the solid is not thinner than the offset the origin is inside, and the one crossing ahead is
         // met.
         ++inwards;
-        const Affined& in = placed.to_object;
+        const Affined in = inverse(placed.to_world);
         const auto through = intersect(placed.solid, Vec3d(point.p), in.vector(Vec3d(s.ng)));
         if (!through || through->leave.t - through->enter.t < 4 * s.offset) continue;
         if (rim_distance(placed, point.p) < 4 * s.offset) continue;
@@ -194,7 +195,7 @@ TEST(Solids, CrossingsFromOutsideAreEven) {
       // From outside the bounds to a point within them, in the solid's own proportions.
       const Vec3f from = map.point(random.direction() * 2), to = map.point(random.direction() * 0.6f);
       Ray ray{from, normalize(to - from)};
-      const Affined& in = b.world.solids[0].to_object;
+      const Affined in = inverse(b.world.solids[0].to_world);
       const auto chord = intersect(b.world.solids[0].solid, in.point(Vec3d(from)), in.vector(Vec3d(ray.d)));
       int crossings = 0;
       for (Hit hit; crossings < 10 && b.accel->intersect(ray, 0, hit); ++crossings) {

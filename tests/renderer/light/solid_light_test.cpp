@@ -61,10 +61,11 @@ float density(const LitSolids& lit, const Vec3f& p, const Vec3f& w) {
   float sum = 0;
   for (std::uint32_t i = 0; i < lit.world.solids.size(); ++i) {
     const PlacedSolid& s = lit.world.solids[i];
-    const Vec3d o = s.to_object.point(Vec3d(p)), d = s.to_object.vector(Vec3d(w));
+    const Affined in = inverse(s.to_world);
+    const Vec3d o = in.point(Vec3d(p)), d = in.vector(Vec3d(w));
     const auto chord = intersect(s.solid, o, d);
     if (!chord) continue;
-    const bool round = s.round_radius > 0;
+    const bool round = s.is_round();
     for (const Crossing& c : {chord->enter, chord->leave}) {
       if (c.t <= 0) continue;
       const Vec3f q = project(s.solid, o + d * c.t, c.face);
@@ -177,12 +178,12 @@ TEST(SolidLights, TargetsClearTheSurface) {
     if (light.double_sided) continue;
     const LitSolids lit(one_light(light));
     const PlacedSolid& placed = lit.world.solids[0];
+    const Affined in = inverse(placed.to_world);
     for (const Vec3f& p : {Vec3f(3, 4, 5), Vec3f(-300, 20, 100)})
       for (std::uint32_t i = 0; i < 2000; ++i) {
         const auto s = sample(lit, p, i);
         if (!s) continue;
-        const auto chord = intersect(placed.solid, placed.to_object.point(Vec3d(p)),
-                                     placed.to_object.vector(Vec3d(s->target - p)));
+        const auto chord = intersect(placed.solid, in.point(Vec3d(p)), in.vector(Vec3d(s->target - p)));
         // What lies well before the target (t = 1) is another part of the solid, which hides it for good.
         if (chord && std::abs(chord->enter.t - 1) < 1e-4) {
           EXPECT_GT(chord->enter.t, 1 - 1e-5) << light.name;

@@ -25,14 +25,15 @@ TEST(ShapeWorld, SolidsArePlacedOneByOne) {
   EXPECT_EQ(world.solids[2].node, cone);
   // A sphere stays one under a mirror and a uniform scale, and no other.
   EXPECT_FLOAT_EQ(world.solids[0].round_radius, 1);
-  EXPECT_EQ(world.solids[1].round_radius, 0);
-  EXPECT_EQ(world.solids[2].round_radius, 0);
+  EXPECT_FALSE(world.solids[1].is_round());
+  EXPECT_FALSE(world.solids[2].is_round());
   EXPECT_EQ(world.solids[0].part, world.solids[2].part);  // one material, one part
   EXPECT_FALSE(world.solid_parts[world.solids[0].part].emissive);
   EXPECT_TRUE(world.solid_parts[world.solids[1].part].emissive);
-  const Vec3d p(0.3, -0.2, 0.7);
-  for (const PlacedSolid& s : world.solids)
-    EXPECT_LT((s.to_object.point(Vec3d(s.to_world.point(Vec3f(p)))) - p).length(), 1e-6);
+  // The point of the ball that faces a direction is found in its own space, the mirror included.
+  const PlacedSolid& round = world.solids[0];
+  const Vec3f q = normalize(Vec3f(0.3f, -0.2f, 0.7f)) * 0.5f;
+  EXPECT_LT((round.round_point(normalize(round.to_world.vector(q))) - q).length(), 1e-6f);
   EXPECT_LT((world.bounds.min - Vec3f(-1, -1, -1)).length(), 1.5f);
   EXPECT_NEAR(world.bounds.max.z, 4, 1e-5);
 }
