@@ -12,67 +12,64 @@ struct Met {
   Vec3f g;
 };
 
-/// The first crossing in (tnear, tfar) that `keep` keeps.
+/// One of the rays that Embree asks about.
+struct LaneRay {
+  Vec3d o, d;
+  float tnear, tfar;
+  unsigned id;
+
+  LaneRay(RTCRayN* r, unsigned n, unsigned i)
+      : o(RTCRayN_org_x(r, n, i), RTCRayN_org_y(r, n, i), RTCRayN_org_z(r, n, i)),
+        d(RTCRayN_dir_x(r, n, i), RTCRayN_dir_y(r, n, i), RTCRayN_dir_z(r, n, i)),
+        tnear(RTCRayN_tnear(r, n, i)),
+        tfar(RTCRayN_tfar(r, n, i)),
+        id(RTCRayN_id(r, n, i)) {}
+};
+
+/// The first crossing between the ray's ends that `keep` keeps.
 template <class Keep>
-const Crossing* first_crossing(const Chord& chord, float tnear, float tfar, const Keep& keep) {
+const Crossing* first_crossing(const Chord& chord, const LaneRay& ray, const Keep& keep) {
   for (const Crossing* c : {&chord.enter, &chord.leave})
-    if (c->t > tnear && c->t < tfar && keep(*c)) return c;
+    if (c->t > ray.tnear && c->t < ray.tfar && keep(*c)) return c;
   return nullptr;
 }
 
 struct RoundKind {
-  static bool meet(const SolidGeometry& geometry, unsigned primitive, const Vec3d& o, const Vec3d& d,
-                   float tnear, float tfar, const Query&, unsigned, Met& met) {
+  static bool meet(const SolidGeometry& geometry, unsigned primitive, const LaneRay& ray, const Query&,
+                   Met& met) {
     const SolidGeometry::Round& sphere = geometry.round[primitive];
-    const Vec3d from_center = o - Vec3d(sphere.center);
-    const std::optional<Chord> chord = intersect(Sphere{sphere.radius}, from_center, d);
+    const Vec3d from_center = ray.o - Vec3d(sphere.center);
+    const std::optional<Chord> chord = intersect(Sphere{sphere.radius}, from_center, ray.d);
     if (!chord) return false;
-    const Crossing* c = first_crossing(*chord, tnear, tfar, [](const Crossing&) { return true; });
+    const Crossing* c = first_crossing(*chord, ray, [](const Crossing&) { return true; });
     if (!c) return false;
-    met = {*c, Vec3f((from_center + d * c->t) * (1.0 / sphere.radius))};
+    met = {*c, Vec3f((from_center + ray.d * c->t) * (1.0 / sphere.radius))};
     return true;
   }
 };
 
 struct MappedKind {
-  static bool meet(const SolidGeometry& geometry, unsigned primitive, const Vec3d& o, const Vec3d& d,
-                   float tnear, float tfar, const Query& query, unsigned ray_id, Met& met) {
+  static bool meet(const SolidGeometry& geometry, unsigned primitive, const LaneRay& ray, const Query& query,
+                   Met& met) {
     const SolidGeometry::Mapped& mapped = geometry.mapped[primitive];
-    const Vec3d local_o = mapped.to_object.point(o), local_d = mapped.to_object.vector(d);
-    const std::optional<Chord> chord = intersect(mapped.solid, local_o, local_d);
+    const Vec3d o = mapped.to_object.point(ray.o), d = mapped.to_object.vector(ray.d);
+    const std::optional<Chord> chord = intersect(mapped.solid, o, d);
     if (!chord) return false;
-    const auto point = [&](const Crossing& c) {
-      return project(mapped.solid, local_o + local_d * c.t, c.face);
-    };
-    const Crossing* c = first_crossing(*chord, tnear, tfar, [&](const Crossing& crossing) {
+    const auto point = [&](const Crossing& c) { return project(mapped.solid, o + d * c.t, c.face); };
+    const Crossing* c = first_crossing(*chord, ray, [&](const Crossing& crossing) {
       if (!mapped.alpha) return true;
       const World& world = *query.world;
       const std::uint32_t index = geometry.solids[primitive];
       const Vec2f uv = surface_point(mapped.solid, point(crossing), crossing.face).uv;
       const Material& material = *world.solid_parts[world.solids[index].part].material;
       const std::uint32_t where = hash32(index, &crossing == &chord->leave);
-      return query.meets(ray_id, where, eval_coverage(*query.scene, material, {uv, uv}, 1));
+      return query.meets(ray.id, where, eval_coverage(*query.scene, material, {uv, uv}, 1));
     });
     if (!c) return false;
     met = {*c, point(*c)};
     return true;
   }
 };
-
-Vec3d origin(RTCRayN* r, unsigned n, unsigned i) {
-  return Vec3d(RTCRayN_org_x(r, n, i), RTCRayN_org_y(r, n, i), RTCRayN_org_z(r, n, i));
-}
-
-Vec3d direction(RTCRayN* r, unsigned n, unsigned i) {
-  return Vec3d(RTCRayN_dir_x(r, n, i), RTCRayN_dir_y(r, n, i), RTCRayN_dir_z(r, n, i));
-}
-
-template <class Kind>
-bool meet(const SolidGeometry& geometry, unsigned primitive, RTCRayN* rays, unsigned n, unsigned i,
-          const Query& query, Met& met) {
-  return Kind::meet(geometry, primitive, origin(rays, n, i), direction(rays, n, i), RTCRayN_tnear(rays, n, i),
-                    RTCRayN_tfar(rays, n, i), query, RTCRayN_id(rays, n, i), met);
-}
 
 template <class Kind>
 void intersect_solids(const RTCIntersectFunctionNArguments* a) {
@@ -82,7 +79,7 @@ void intersect_solids(const RTCIntersectFunctionNArguments* a) {
   RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
   for (unsigned i = 0; i < a->N; ++i) {
     Met met;
-    if (a->valid[i] != -1 || !meet<Kind>(geometry, a->primID, rays, a->N, i, query, met)) continue;
+    if (a->valid[i] != -1 || !Kind::meet(geometry, a->primID, LaneRay(rays, a->N, i), query, met)) continue;
     RTCRayN_tfar(rays, a->N, i) = float(met.crossing.t);
     RTCHitN_Ng_x(hits, a->N, i) = met.g.x;
     RTCHitN_Ng_y(hits, a->N, i) = met.g.y;
@@ -101,7 +98,7 @@ void occlude_solids(const RTCOccludedFunctionNArguments* a) {
   const auto& query = *static_cast<const Query*>(a->context);
   for (unsigned i = 0; i < a->N; ++i) {
     Met met;
-    if (a->valid[i] == -1 && meet<Kind>(geometry, a->primID, a->ray, a->N, i, query, met))
+    if (a->valid[i] == -1 && Kind::meet(geometry, a->primID, LaneRay(a->ray, a->N, i), query, met))
       RTCRayN_tfar(a->ray, a->N, i) = -kInfinity;
   }
 }

@@ -33,6 +33,7 @@ std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const
        ratio(double(s.rays.camera + s.rays.scattered + s.rays.shadow), double(s.rays.camera))},
       {"dropped_samples", s.rays.dropped},
       {"triangles", s.triangles},
+      {"solids", s.solids},
       {"acceleration_bytes", s.accel_bytes},
       {"acceleration_bytes_per_triangle", ratio(double(s.accel_bytes), double(s.triangles))},
       {"peak_memory_bytes", peak_memory_bytes()},

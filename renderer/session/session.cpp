@@ -54,6 +54,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
   build_lights();
   view_ = make_camera_view(*scene_, world_->cameras.at(settings_.camera), settings_.width, settings_.height);
   for (const Part& part : world_->parts) stats_.triangles += part.primitive->triangles.size();
+  stats_.solids = world_->solids.size();
   stats_.build_seconds = seconds_since(start);
 }
 

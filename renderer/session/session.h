@@ -46,7 +46,7 @@ struct Progress {
 struct SessionStats {
   double build_seconds = 0, render_seconds = 0, render_cpu_seconds = 0;
   RayCounts rays;
-  std::size_t accel_bytes = 0, triangles = 0;  // triangles as stored, each mesh once
+  std::size_t accel_bytes = 0, triangles = 0, solids = 0;  // triangles as stored, each mesh once
   BuildCounts builds;
   int light_builds = 0;
 };

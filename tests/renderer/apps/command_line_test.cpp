@@ -231,6 +231,7 @@ TEST_F(CommandLine, StatisticsAddUp) {
   EXPECT_EQ(stats["samples_per_pixel"], 6);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["triangles"], 1);
+  EXPECT_EQ(stats["solids"], 0);
   EXPECT_EQ(stats["dropped_samples"], 0);
   EXPECT_GT(stats["peak_memory_bytes"].get<double>(), 1e6);
   EXPECT_GT(stats["acceleration_bytes"].get<double>(), 0);

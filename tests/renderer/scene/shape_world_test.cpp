@@ -30,6 +30,9 @@ TEST(ShapeWorld, SolidsArePlacedOneByOne) {
   EXPECT_EQ(world.solids[0].part, world.solids[2].part);  // one material, one part
   EXPECT_FALSE(world.solid_parts[world.solids[0].part].emissive);
   EXPECT_TRUE(world.solid_parts[world.solids[1].part].emissive);
+  // Nor under one that is not quite uniform: what counts as round is so within its error bound.
+  scene.nodes[0].transform.scale = {2, 2.00001f, 2};
+  EXPECT_FALSE(make_world(scene).solids[0].is_round());
   // The point of the ball that faces a direction is found in its own space, the mirror included.
   const PlacedSolid& round = world.solids[0];
   const Vec3f q = normalize(Vec3f(0.3f, -0.2f, 0.7f)) * 0.5f;

@@ -57,7 +57,7 @@ TEST(SphereDirections, NormalsAreWhereTheDirectionArrives) {
       const double off = from.cross(Vec3d(s->w)).length() / kRadius;
       EXPECT_LT(off, 3e-6 + 2e-7 * ratio) << ratio << " " << i;
       EXPECT_GT(from.dot(Vec3d(s->w)), 0) << ratio;
-      if (ratio > 1.005f) {
+      if (ratio > 1.0001f) {
         EXPECT_LT(s->w.dot(s->normal), 1e-3f) << ratio;
       }
     }

@@ -25,6 +25,14 @@ TEST(SolidSurface, NormalsPointOutwards) {
       ASSERT_TRUE(chord) << s.p;
       EXPECT_NEAR(chord->enter.t, 0.01, 1e-6) << s.p;
       EXPECT_NEAR(point.normal.dot(point.dpdu), 0, 1e-6);
+      // What lies beside the point on the surface lies in its tangent plane, but for the curvature.
+      const Frame frame = make_frame(point.normal);
+      for (const Vec3f& step : {frame.x, frame.y}) {
+        const Vec3f beside = project(solid, Vec3d(s.p + step * 1e-3f), s.face);
+        const float radius = std::hypot(s.p.x, s.p.z);
+        if (s.face == Face::side && (radius < 0.05f || point.uv.y < 0.01f || point.uv.y > 0.99f)) continue;
+        EXPECT_LT(std::abs((beside - s.p).dot(point.normal)), 3e-5f) << s.p;
+      }
     }
 }
 
