@@ -183,7 +183,9 @@ float eval_coverage(const Scene& scene, const Part& part, std::uint32_t triangle
   const Primitive& primitive = *part.primitive;
   const Triangle& t = primitive.triangles[triangle];
   const float alpha = primitive.colors.empty() ? 1 : interpolate(primitive.colors, t, u, v).w;
-  return eval_coverage(scene, *part.material, interpolate_uvs(primitive, t, u, v), alpha);
+  std::array<Vec2f, 2> uvs{Vec2f(0), Vec2f(0)};
+  if (part.material->base_color_texture) uvs = interpolate_uvs(primitive, t, u, v);
+  return eval_coverage(scene, *part.material, uvs, alpha);
 }
 
 }  // namespace parian

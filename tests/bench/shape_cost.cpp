@@ -229,12 +229,7 @@ void compare_forms(std::vector<Form> forms, const std::vector<RayPacket>& packet
 
 void measure_single(int repeats) {
   const std::vector<RayPacket> packets = camera_rays();
-  Shape sphere, cylinder, cone;
-  sphere.radius = 1;
-  cylinder.kind = cone.kind = ShapeKind::cylinder;
-  cylinder.radius_bottom = cylinder.radius_top = cone.radius_bottom = 1;
-  cone.radius_top = 0;
-  cylinder.height = cone.height = 2;
+  const Shape sphere = make_sphere(1), cylinder = make_cylinder(1, 1, 2), cone = make_cylinder(1, 0, 2);
   fmt::print(
       "| | ns per ray, alone | ns per ray, packets of 16 | bytes of Embree | hit |\n|---|---|---|---|---|\n");
   compare_forms(make_forms("sphere", sphere, sphere_outline), packets, repeats);

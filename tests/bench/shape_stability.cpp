@@ -323,12 +323,7 @@ void print(const Subject& subject, float ratio, const Tally& tally) {
 }
 
 std::vector<Subject> subjects() {
-  Shape sphere, cylinder, cone;
-  sphere.radius = 1;
-  cylinder.kind = cone.kind = ShapeKind::cylinder;
-  cylinder.radius_bottom = cylinder.radius_top = cone.radius_bottom = 1;
-  cone.radius_top = 0;
-  cylinder.height = cone.height = 2;
+  const Shape sphere = make_sphere(1), cylinder = make_cylinder(1, 1, 2), cone = make_cylinder(1, 0, 2);
   const float bound = std::sqrt(2.0f);
   return {{"sphere", sphere, Sphere{1}, 1},
           {"cylinder", cylinder, Frustum{1, 1, 2}, bound},

@@ -11,13 +11,6 @@
 namespace parian {
 namespace {
 
-IntegratorSettings with(Strategy strategy, int max_depth = 100) {
-  IntegratorSettings s;
-  s.strategy = strategy;
-  s.max_depth = max_depth;
-  return s;
-}
-
 struct NamedShape {
   const char* name;
   Primitive primitive;

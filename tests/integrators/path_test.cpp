@@ -12,13 +12,6 @@
 namespace parian {
 namespace {
 
-IntegratorSettings with(Strategy strategy, int max_depth = 100) {
-  IntegratorSettings s;
-  s.strategy = strategy;
-  s.max_depth = max_depth;
-  return s;
-}
-
 Material make_metal(const Rgb& color, float roughness) {
   Material m;
   m.base_color = color;

@@ -25,6 +25,14 @@ inline RenderSettings independent_settings(int width, int height, std::uint32_t 
   return s;
 }
 
+/// Settings of the path integrator.
+inline IntegratorSettings with(Strategy strategy, int max_depth = 100) {
+  IntegratorSettings s;
+  s.strategy = strategy;
+  s.max_depth = max_depth;
+  return s;
+}
+
 /// The finished picture of a scene; no sample may be dropped.
 inline Picture render(const Scene& scene, const RenderSettings& settings,
                       const IntegratorSettings& integrator = {}, const std::string& name = "path") {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "tests/renderer/light/support/lit_scene.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -13,21 +14,6 @@ namespace parian {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-
-/// A scene with its world and table, which point into it.
-struct LitScene {
-  explicit LitScene(Scene s) : scene(std::move(s)), world(make_world(scene)), table(scene, world) {}
-  LitScene(const LitScene&) = delete;
-  Scene scene;
-  World world;
-  LightTable table;
-};
-
-std::optional<LightSample> sample(const LitScene& lit, const Vec3f& p, std::uint32_t i,
-                                  std::uint32_t seed = 1) {
-  Sampler sampler(SamplerKind::independent, seed, 0, 0, i);
-  return lit.table.sample(p, sampler.next2(), sampler);
-}
 
 Light make_light(LightKind kind, float intensity = 1) {
   Light light;

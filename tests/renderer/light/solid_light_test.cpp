@@ -1,21 +1,13 @@
 // Solids that emit: samples against their density, and the light they send against closed forms.
 #include <gtest/gtest.h>
 
-#include "renderer/light/light_table.h"
+#include "tests/renderer/light/support/lit_scene.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
-
-struct LitSolids {
-  explicit LitSolids(Scene s) : scene(std::move(s)), world(make_world(scene)), table(scene, world) {}
-  LitSolids(const LitSolids&) = delete;
-  Scene scene;
-  World world;
-  LightTable table;
-};
 
 struct NamedLight {
   const char* name;
@@ -51,13 +43,8 @@ Scene one_light(const NamedLight& light) {
   return scene;
 }
 
-std::optional<LightSample> sample(const LitSolids& lit, const Vec3f& p, std::uint32_t i) {
-  Sampler sampler(SamplerKind::independent, 3, 0, 0, i);
-  return lit.table.sample(p, sampler.next2(), sampler);
-}
-
 /// The density of every point on the ray from p along w that emits towards p, hidden or not.
-float density(const LitSolids& lit, const Vec3f& p, const Vec3f& w) {
+float density(const LitScene& lit, const Vec3f& p, const Vec3f& w) {
   float sum = 0;
   for (std::uint32_t i = 0; i < lit.world.solids.size(); ++i) {
     const PlacedSolid& s = lit.world.solids[i];
@@ -84,7 +71,7 @@ float density(const LitSolids& lit, const Vec3f& p, const Vec3f& w) {
 TEST(SolidLights, SamplesFollowTheirDensity) {
   const Vec3f p(0.9f, 1.9f, 1.2f);
   for (const NamedLight& light : lights()) {
-    const LitSolids lit(one_light(light));
+    const LitScene lit(one_light(light));
     std::uint32_t i = 0;
     const auto draw = [&]() -> std::optional<Vec3f> {
       const auto s = sample(lit, p, i++);
@@ -101,7 +88,7 @@ TEST(SolidLights, SamplesFollowTheirDensity) {
 }
 
 /// Irradiance at p on a surface of normal n, where nothing hides anything.
-Statistics irradiance(const LitSolids& lit, const Vec3f& p, const Vec3f& n, int samples) {
+Statistics irradiance(const LitScene& lit, const Vec3f& p, const Vec3f& n, int samples) {
   Statistics s;
   for (int i = 0; i < samples; ++i) {
     const auto light = sample(lit, p, std::uint32_t(i));
@@ -115,7 +102,7 @@ TEST(SolidLights, SpheresIrradiateAsTheyShould) {
   for (const double size : {1e-3, 1.0, 1e6})
     for (const double ratio : {1.5, 10.0, 1e3, 1e5}) {
       NamedLight light{"", make_sphere(float(size)), translate({0, float(size * ratio), 0})};
-      const LitSolids lit(one_light(light));
+      const LitScene lit(one_light(light));
       const Statistics s = irradiance(lit, {0, 0, 0}, {0, 1, 0}, 4000);
       const double truth = std::numbers::pi / (ratio * ratio);
       EXPECT_NEAR(s.mean(), truth, 4.5 * s.standard_error() + 1e-5 * truth) << size << " " << ratio;
@@ -127,7 +114,7 @@ TEST(SolidLights, SpheresIrradiateAsTheyShould) {
 TEST(SolidLights, InsideAClosedEmitterIrradianceIsPi) {
   for (NamedLight light : lights()) {
     light.double_sided = true;
-    const LitSolids lit(one_light(light));
+    const LitScene lit(one_light(light));
     const Affine& map = lit.world.solids[0].to_world;
     for (const Vec3f& local : {Vec3f(0, 0, 0), Vec3f(0.1f, -0.2f, 0.15f)}) {
       const Statistics s = irradiance(lit, map.point(local), normalize(Vec3f(0.3f, 0.8f, -0.5f)), 200000);
@@ -144,7 +131,7 @@ TEST(SolidLights, ShareTheChoiceWithOtherLights) {
   add_shape(scene, make_sphere(1), material, translate({0, 4, 0}));
   add_shape(scene, make_cylinder(1, 1, 1), material, translate({0, -5, 0}));  // below the horizon
   add_mesh(scene, make_quad({0, -3, 0}, {1, 0, 0}, {0, 0, 1}), material);
-  const LitSolids lit(std::move(scene));
+  const LitScene lit(std::move(scene));
   EXPECT_EQ(lit.table.size(), 4);
   const Statistics s = irradiance(lit, {0, 0, 0}, {0, 1, 0}, 100000);
   EXPECT_NEAR(s.mean(), kPi / 16, 4.5 * s.standard_error());
@@ -160,7 +147,7 @@ TEST(SolidLights, AreChosenByTheAreaOfTheirImage) {
   Transform t = translate({0, -50, 0});
   t.scale = {2, 1, 1};
   add_shape(scene, make_sphere(1), material, t);
-  const LitSolids lit(std::move(scene));
+  const LitScene lit(std::move(scene));
   int stretched_one = 0;
   constexpr int kSamples = 20000;
   for (int i = 0; i < kSamples; ++i) {
@@ -176,7 +163,7 @@ TEST(SolidLights, AreChosenByTheAreaOfTheirImage) {
 TEST(SolidLights, TargetsClearTheSurface) {
   for (const NamedLight& light : lights()) {
     if (light.double_sided) continue;
-    const LitSolids lit(one_light(light));
+    const LitScene lit(one_light(light));
     const PlacedSolid& placed = lit.world.solids[0];
     const Affined in = inverse(placed.to_world);
     for (const Vec3f& p : {Vec3f(3, 4, 5), Vec3f(-300, 20, 100)})
