@@ -25,8 +25,8 @@ METHODS = {
     "parian": ("Parian, function", "#1f6fb2", "D"),
     "traced": ("Parian, traced", "#3c9d4e", "^"),
 }
-# The error bound that Parian reports is 24 unit roundoffs of the point's largest coordinate, which lies between these.
-BOUND = (24 * 2**-24 / 3**0.5, 24 * 2**-24)
+# The error bound that Parian reports is 12 unit roundoffs of the point's largest coordinate, which lies between these.
+BOUND = (12 * 2**-24 / 3**0.5, 12 * 2**-24)
 
 
 def measure(program: Path, rays: int | None) -> Path:
