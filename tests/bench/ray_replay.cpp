@@ -18,6 +18,7 @@
 #include "renderer/base/parallel.h"
 #include "renderer/session/session.h"
 #include "scene_io/gltf.h"
+#include "tests/bench/support/timing.h"
 
 namespace {
 
@@ -94,12 +95,6 @@ namespace {
 
 using namespace parian;
 
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 RTCRay to_ray(const RecordedRay& r) {
   RTCRay ray;
   ray.org_x = r.origin[0];
@@ -135,9 +130,9 @@ void trace_alone(const RecordedRay& r, std::size_t& hits) {
 /// Traces all rays, each by itself; returns CPU seconds. Hits are counted so that nothing can be optimised
 /// away.
 double replay_alone(const std::vector<RecordedRay>& rays, std::size_t& hits) {
-  const double start = cpu_seconds();
+  const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
   for (const RecordedRay& r : rays) trace_alone(r, hits);
-  return cpu_seconds() - start;
+  return seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
 }
 
 void set_lane(RTCRay16& ray, int i, const RecordedRay& r) {
@@ -156,7 +151,7 @@ void set_lane(RTCRay16& ray, int i, const RecordedRay& r) {
 
 /// Traces all rays in the queries that the renderer made; returns CPU seconds.
 double replay_as_traced(const std::vector<RecordedRay>& rays, std::size_t& hits) {
-  const double start = cpu_seconds();
+  const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
   for (std::size_t next = 0; next < rays.size();) {
     const RecordedRay* r = &rays[next];
     if (r->packet == 0) {
@@ -182,12 +177,7 @@ double replay_as_traced(const std::vector<RecordedRay>& rays, std::size_t& hits)
     }
     next += r->packet;
   }
-  return cpu_seconds() - start;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
+  return seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
 }
 
 }  // namespace
@@ -213,10 +203,10 @@ int main(int argc, char** argv) {
 
   const auto render = [&] {
     session.film().clear();
-    const double start = cpu_seconds();
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
     session.start();
     session.wait();
-    return cpu_seconds() - start;
+    return seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
   };
   std::vector<RecordedRay> rays;
   recorder = &rays;

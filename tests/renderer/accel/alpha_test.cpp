@@ -42,6 +42,14 @@ TEST(Accel, BlendedPanesCoverTheShareOfRaysThatAlphaSays) {
   }
 }
 
+/// Which of 200,000 rays through all panes are blocked.
+Statistics blocked_rays(const Built& b) {
+  Statistics blocked;
+  for (std::uint32_t i = 0; i < 200000; ++i)
+    blocked.add(b.accel->occluded({{0.1f, 0.2f, 0}, {0, 0, -1}}, hash32(i)));
+  return blocked;
+}
+
 // Instances of one mesh decide apart: .5 x .5 passes both.
 TEST(Accel, InstancesOfABlendedMeshDecideApart) {
   Scene scene;
@@ -50,10 +58,7 @@ TEST(Accel, InstancesOfABlendedMeshDecideApart) {
   second.transform = translate({0, 0, -1});
   add_root(scene, second);
   const Built b(std::move(scene));
-  Statistics blocked;
-  for (std::uint32_t i = 0; i < 200000; ++i)
-    blocked.add(b.accel->occluded({{0.1f, 0.2f, 0}, {0, 0, -1}}, hash32(i)));
-  EXPECT_TRUE(mean_is(blocked, 0.75, 0.02));
+  EXPECT_TRUE(mean_is(blocked_rays(b), 0.75, 0.02));
 }
 
 // Caught: MASK treated as BLEND, the cutoff compared with > where alpha equals it, alpha of the texture
@@ -95,10 +100,7 @@ TEST(Accel, VertexAlphaCovers) {
   add_pane(scene, 1, 0.5f);
   scene.meshes[0].primitives[0].colors = std::vector<Vec4f>(4, Vec4f(1, 1, 1, 0.5f));
   const Built b(std::move(scene));
-  Statistics blocked;
-  for (std::uint32_t i = 0; i < 200000; ++i)
-    blocked.add(b.accel->occluded({{0.1f, 0.2f, 0}, {0, 0, -1}}, hash32(i)));
-  EXPECT_TRUE(mean_is(blocked, 0.25, 0.03));
+  EXPECT_TRUE(mean_is(blocked_rays(b), 0.25, 0.03));
 }
 
 // Caught: the disk filter set for intersect alone, a disk of radius `width`, every light of a mixed set cut.

@@ -71,7 +71,11 @@ float density(const LitScene& lit, const Vec3f& p, const Vec3f& w) {
 TEST(SolidLights, SamplesFollowTheirDensity) {
   const Vec3f p(0.9f, 1.9f, 1.2f);
   for (const NamedLight& light : lights()) {
-    const LitScene lit(one_light(light));
+    Scene scene = one_light(light);
+    // A second lamp, or the choice would not be in the density.
+    add_shape(scene, make_sphere(0.3f), add_material(scene, make_emitter({3, 3, 3})),
+              translate({-0.6f, 1.4f, 0.8f}));
+    const LitScene lit(std::move(scene));
     std::uint32_t i = 0;
     const auto draw = [&]() -> std::optional<Vec3f> {
       const auto s = sample(lit, p, i++);
