@@ -1,6 +1,8 @@
 #include "integrators/path.h"
 
+#include "integrators/boundary.h"
 #include "integrators/features.h"
+#include "materials/dispersion.h"
 #include "renderer/base/sampling.h"
 
 namespace parian {
@@ -16,11 +18,20 @@ struct Path {
   CameraPath* camera;
   Rgb weight;
   float pdf;
-  Rgb direct;  // what the last surface gets straight from a light, unless something lies between
+  Receiver from;  // where it scattered last; not set where pdf is infinite
+  Rgb direct;     // what the last surface gets straight from a light, unless something lies between
+  // In a world with media:
+  MediumStack media;  // around the path
+  // An interface keeps L / n^2, not L: what the path finds counts as much as (n at the camera / n here)^2.
+  float scale;
+  float wavelength;  // nanometres; 0: of all
+  int passed;        // surfaces that were none, since what is before and behind them is the same
 
   const Ray& ray() const { return camera->ray; }
   const Hit& hit() const { return camera->hit; }
   Sampler& sampler() { return camera->sampler; }
+  /// How far the last ray went, in metres.
+  float distance() const { return hit().placement == Hit::kMiss ? kInfinity : hit().t; }
 };
 
 /// The numbers that every scattering takes.
@@ -32,33 +43,58 @@ struct Numbers {
 class Tracer {
  public:
   Tracer(const TraceContext& context, const IntegratorSettings& settings, RayCounts& counts)
-      : context_(context), settings_(settings), counts_(counts) {}
+      : context_(context), settings_(settings), counts_(counts), media_(!context.world.media.empty()) {}
+
+  void set_out(Path& path, CameraPath& camera) const {
+    path.camera = &camera;
+    path.weight = Rgb(1, 1, 1);
+    path.pdf = kInfinity;
+    if (!media_) return;
+    path.media = context_.camera_media;
+    path.scale = 1;
+    path.wavelength = 0;
+    path.passed = 0;
+  }
 
   /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
   /// light that it samples, and where it goes. False where it ends.
   bool arrive(Path& path, int depth, const Numbers& numbers) {
+    if (media_) path.weight *= transmittance(path.media.current(), path.distance());
+    const Rgb carried = media_ ? path.weight * path.scale : path.weight;
     Rgb& radiance = path.camera->radiance;
     // A ray that leaves the scene, or ends at a light without a surface, brings what it sees there.
     if (path.hit().placement == Hit::kMiss) {
-      radiance += path.weight * environment(path);
+      radiance += carried * environment(path);
       return false;
     }
     if (path.hit().placement == Hit::kAreaLightHit) {
-      radiance += path.weight * area_light(path);
+      radiance += carried * area_light(path);
       return false;
     }
-    const Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
+    Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
+    std::optional<Boundary> boundary;
+    if (surface.part->medium != kNone) [[unlikely]] {
+      boundary =
+          find_boundary(context_, path.media, path.ray(), path.sampler().key(), path.camera->hit, surface);
+      if (boundary && boundary->before == boundary->after) return pass(path, surface, *boundary);
+    }
     if (surface.part->material->unlit) {
-      radiance += path.weight * eval_base_color(context_.scene, surface);
+      radiance += carried * eval_base_color(context_.scene, surface);
       return false;
     }
-    if (surface.part->emissive) radiance += path.weight * emission(path, surface);
+    if (surface.part->emissive) radiance += carried * emission(path, surface);
+    if (media_) depth -= path.passed;
     if (depth == settings_.max_depth) return false;
 
     // Scatter: light sampled directly, then a direction to go on.
-    const Bsdf bsdf = make_bsdf(context_.scene, surface);
-    if (!context_.lights.empty()) sample_direct_light(path, surface, bsdf, numbers.light);
-    return scatter(path, surface, bsdf, numbers.direction) && survive(path);
+    const float eta = boundary ? relative_ior(path, *boundary) : 1;
+    const Bsdf bsdf = make_bsdf(context_.scene, surface, eta);
+    path.from = {surface.p + surface.lift, bsdf.transmits() ? Vec3f(0) : surface.frame.z};
+    if (!context_.lights.empty())
+      sample_direct_light(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers.light);
+    if (!scatter(path, surface, bsdf, numbers.direction)) return false;
+    if (boundary && bsdf.beyond(path.ray().d)) enter(path, *boundary);
+    return survive(path);
   }
 
   /// Adds the sampled light whose shadow rays nothing blocks.
@@ -78,6 +114,39 @@ class Tracer {
   }
 
  private:
+  /// Goes on where there is no boundary. No light sample could have found what comes: its ray ended here.
+  bool pass(Path& path, const Surface& surface, const Boundary& boundary) const {
+    constexpr int kMost = 1000;
+    path.media = boundary.beyond;
+    path.camera->ray = {ray_origin(surface, path.ray().d), path.ray().d};
+    path.pdf = kInfinity;
+    return ++path.passed < kMost;
+  }
+
+  /// The index of refraction behind a boundary over that before it. Where it differs between wavelengths the
+  /// path from here on is of one.
+  float relative_ior(Path& path, const Boundary& boundary) const {
+    const auto disperses = [](const Medium* medium) { return medium && medium->dispersion > 0; };
+    if (path.wavelength == 0 && (disperses(boundary.before) || disperses(boundary.after))) {
+      const float choice = path.sampler().next1();
+      const WavelengthSample sample = sample_wavelength(choice, path.sampler().next2());
+      path.wavelength = sample.wavelength;
+      path.weight *= sample.weight;
+    }
+    return ior_of(boundary.after, path.wavelength) / ior_of(boundary.before, path.wavelength);
+  }
+
+  float scale_in(const Path& path, const Medium* medium) const {
+    const float ratio =
+        ior_of(context_.camera_media.current(), path.wavelength) / ior_of(medium, path.wavelength);
+    return ratio * ratio;
+  }
+
+  void enter(Path& path, const Boundary& boundary) const {
+    path.media = boundary.beyond;
+    path.scale = scale_in(path, boundary.after);
+  }
+
   /// The weight of light that the path ran into, where sampling lights would have found it with density
   /// `light_pdf`.
   float hit_weight(const Path& path, float light_pdf) const {
@@ -90,7 +159,7 @@ class Tracer {
     const EnvironmentLight& environment = context_.lights.environment();
     if (environment.black()) return Rgb(0, 0, 0);
     if (path.pdf == kInfinity) return environment.eval(path.ray().d);
-    const EnvironmentSample seen = context_.lights.look_up_environment(path.ray().d);
+    const EnvironmentSample seen = context_.lights.look_up_environment(path.ray().d, path.from);
     return seen.radiance * hit_weight(path, seen.pdf);
   }
 
@@ -98,7 +167,8 @@ class Tracer {
     const AreaLight& light = context_.world.area_lights[path.hit().triangle];
     const float cosine = -path.ray().d.dot(light.normal);
     if (cosine <= 0) return Rgb(0, 0, 0);
-    const float competing = path.pdf == kInfinity ? 0 : context_.lights.pdf_area_light(path.hit(), cosine);
+    const float competing =
+        path.pdf == kInfinity ? 0 : context_.lights.pdf_area_light(path.hit(), path.from, cosine);
     return light.radiance * hit_weight(path, competing);
   }
 
@@ -108,14 +178,15 @@ class Tracer {
     const float cosine = std::abs(path.ray().d.dot(surface.ng));
     float competing = 0;
     if (path.pdf != kInfinity && cosine != 0)
-      competing = path.hit().is_solid() ? context_.lights.pdf_solid(path.hit(), path.ray().o, cosine)
-                                        : context_.lights.pdf_triangle(path.hit(), cosine);
+      competing = path.hit().is_solid() ? context_.lights.pdf_solid(path.hit(), path.from, cosine)
+                                        : context_.lights.pdf_triangle(path.hit(), path.from, cosine);
     return eval_emission(context_.scene, material, surface.uvs) * hit_weight(path, competing);
   }
 
   /// Samples a point of a light; whether it is seen is for later.
-  void sample_direct_light(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) {
-    const std::optional<LightSample> light = context_.lights.sample(surface.p, u, path.sampler());
+  void sample_direct_light(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary* boundary,
+                           const Vec2f& u) {
+    const std::optional<LightSample> light = context_.lights.sample(path.from, u, path.sampler());
     if (!light) return;
     if (!light->delta && settings_.strategy == Strategy::bsdf) return;
     const BsdfValue value = bsdf.eval(light->wi);
@@ -125,6 +196,17 @@ class Tracer {
                   (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
     if (is_black(path.direct)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
+    if (media_) {
+      const Medium* medium = path.media.current();
+      float scale = path.scale;
+      if (boundary && bsdf.beyond(light->wi)) {
+        medium = boundary->after;
+        scale = scale_in(path, medium);
+      }
+      path.direct *=
+          transmittance(medium, light->at_infinity ? kInfinity : (light->target - origin).length()) * scale;
+      if (is_black(path.direct)) return;
+    }
     waiting_[shadow_rays_.count] = &path;
     shadow_rays_.add(
         light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd},
@@ -153,6 +235,7 @@ class Tracer {
   const TraceContext& context_;
   const IntegratorSettings& settings_;
   RayCounts& counts_;
+  const bool media_;
   RayPacket shadow_rays_;
   std::array<Path*, RayPacket::kSize> waiting_;  // whose light the shadow rays ask about
 };
@@ -165,18 +248,16 @@ void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath>
   std::array<Path*, RayPacket::kSize> growing;
   std::array<Sampler*, RayPacket::kSize> samplers;  // of the growing paths
   std::size_t count = 0;
+  Tracer tracer(context, settings_, counts);
   for (CameraPath& camera : camera_paths) {
     if (features_wanted && camera.hit.placement != Hit::kMiss)
       camera.features = hit_features(context, camera.hit, camera.ray.d);
     Path& path = paths[count];
-    path.camera = &camera;
-    path.weight = Rgb(1, 1, 1);
-    path.pdf = kInfinity;
+    tracer.set_out(path, camera);
     samplers[count] = &camera.sampler;
     growing[count++] = &path;
   }
 
-  Tracer tracer(context, settings_, counts);
   for (int depth = 0; count > 0; ++depth) {
     std::array<Vec2f, RayPacket::kSize> light, direction;
     next2_twice({samplers.data(), count}, light.data(), direction.data());
@@ -193,6 +274,11 @@ void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath>
     tracer.add_direct_light();
     for (std::size_t i = 0; i < count; ++i) tracer.follow(*growing[i]);
   }
+  if (settings_.clamp < kInfinity)
+    for (CameraPath& camera : camera_paths) {
+      const float largest = max_component(camera.radiance);
+      if (largest > settings_.clamp) camera.radiance *= settings_.clamp / largest;
+    }
 }
 
 }  // namespace parian

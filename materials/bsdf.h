@@ -4,17 +4,22 @@
 
 #include <variant>
 
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
 #include "materials/lambert.h"
+#include "materials/layered.h"
 #include "materials/metallic_roughness.h"
+#include "materials/phong.h"
 #include "renderer/scene/surface.h"
 
 namespace parian {
 
 /// Directions are unit, in world space, away from the surface. A direction that shading and geometric normal
-/// put on different sides is black: light would leak through the surface.
+/// put on different sides is black: light would leak through the surface. Radiance that is transmitted is
+/// basic radiance (dielectric.h).
 class Bsdf {
  public:
-  using AnyLobe = std::variant<Lambert, MetallicRoughness>;
+  using AnyLobe = std::variant<Lambert, MetallicRoughness, Phong, Conductor, Dielectric, Layered>;
 
   /// The surface must outlive the BSDF.
   Bsdf(const Surface& surface, const AnyLobe& lobe) : surface_(surface), lobe_(lobe) {}
@@ -23,7 +28,7 @@ class Bsdf {
   /// f |cos wi| with the cosine to the shading normal, and the density per solid angle with which sample()
   /// finds wi.
   BsdfValue eval(const Vec3f& wi) const {
-    if (behind(wi)) return {};
+    if (leaks(wi)) return {};
     // Into the frame inside the choice: a lobe that does not look at a coordinate does not pay for it.
     return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); },
                       lobe_);
@@ -34,24 +39,39 @@ class Bsdf {
         std::visit([&](const auto& lobe) { return lobe.sample(to_local(surface_.wo), u1, u2); }, lobe_);
     if (!s) return s;
     s->wi = surface_.frame.to_world(s->wi);
-    if (behind(s->wi)) return std::nullopt;
+    if (leaks(s->wi)) return std::nullopt;
     return s;
   }
 
   /// Whether sample() looks at its first number.
   bool has_choice() const { return !std::holds_alternative<Lambert>(lobe_); }
 
+  /// Whether light may come from beyond the surface.
+  bool transmits() const {
+    return std::holds_alternative<Dielectric>(lobe_) || std::holds_alternative<Layered>(lobe_);
+  }
+
+  /// Whether w is on the side of the surface that wo is not on.
+  bool beyond(const Vec3f& w) const { return (surface_.front ? w : -w).dot(surface_.ng) <= 0; }
+
  private:
   Vec3f to_local(const Vec3f& w) const { return surface_.frame.to_local(w); }
-  /// Whether w and wo are on different sides of the surface.
-  bool behind(const Vec3f& w) const { return (surface_.front ? w : -w).dot(surface_.ng) <= 0; }
+  /// Whether shading and geometric normal disagree about the side that w is on.
+  bool leaks(const Vec3f& w) const {
+    // What leaves from the curved surface has its horizon (which a normal map is not).
+    if (surface_.lifted && w.dot(surface_.frame.z) > 0)
+      return surface_.part->needs_tangent && (surface_.front ? w : -w).dot(surface_.smooth_normal) <= 0;
+    if (!beyond(w)) return transmits() && w.dot(surface_.frame.z) < 0;
+    return !transmits() || w.dot(surface_.frame.z) >= 0;
+  }
 
   const Surface& surface_;
   AnyLobe lobe_;
 };
 
-/// The BSDF at a surface, its textures looked up.
-Bsdf make_bsdf(const Scene& scene, const Surface& surface);
+/// The BSDF at a surface, its textures looked up. `eta`: where the surface bounds a medium, the index of
+/// refraction beyond it over that on the viewer's side.
+Bsdf make_bsdf(const Scene& scene, const Surface& surface, float eta = 1);
 
 /// The base colour at a surface, texture and vertex colour included.
 Rgb eval_base_color(const Scene& scene, const Surface& surface);

@@ -1,6 +1,6 @@
 /// What a lobe is: a value type that evaluates and samples a BSDF in the shading frame (z is the shading
 /// normal, on the side of the viewer). wo points to the viewer and wi to the light, both unit, both away from
-/// the surface; wo.z > 0.
+/// the surface; wo.z > 0. Light is transmitted where wi.z < 0.
 #pragma once
 
 #include <concepts>
@@ -10,7 +10,8 @@
 
 namespace parian {
 
-/// f(wo, wi) |cos wi|, and the density per solid angle with which sample() finds wi.
+/// f(wo, wi) |cos wi|, and the density per solid angle with which sample() finds wi. A direction that only
+/// sampling finds, as a mirror's, is in neither.
 struct BsdfValue {
   Rgb f_cos{0, 0, 0};
   float pdf = 0;
@@ -19,7 +20,7 @@ struct BsdfValue {
 struct BsdfSample {
   Vec3f wi;
   Rgb weight;  // f |cos wi| / pdf
-  float pdf;   // per solid angle; > 0
+  float pdf;   // per solid angle; > 0, and infinite for a direction that only sampling finds
 };
 
 template <class T>

@@ -113,12 +113,31 @@ void check_shapes(const nlohmann::json& document, const std::string& file) {
 }  // namespace
 
 bool reads_extension(const std::string& name) {
-  static const std::set<std::string> names = {
-      "EXT_camera_physical",     "EXT_lights_area",       "EXT_lights_environment",
-      "EXT_mesh_gpu_instancing", "EXT_texture_webp",      "KHR_implicit_shapes",
-      "KHR_lights_punctual",     "KHR_materials_ior",     "KHR_materials_unlit",
-      "KHR_materials_specular",  "KHR_mesh_quantization", "KHR_materials_emissive_strength",
-      "KHR_texture_transform",   "PARIAN_shape"};
+  static const std::set<std::string> names = {"EXT_camera_physical",
+                                              "EXT_lights_area",
+                                              "EXT_lights_environment",
+                                              "EXT_mesh_gpu_instancing",
+                                              "EXT_texture_webp",
+                                              "KHR_implicit_shapes",
+                                              "KHR_lights_punctual",
+                                              "KHR_materials_anisotropy",
+                                              "KHR_materials_clearcoat",
+                                              "KHR_materials_diffuse_transmission",
+                                              "KHR_materials_dispersion",
+                                              "KHR_materials_emissive_strength",
+                                              "KHR_materials_ior",
+                                              "KHR_materials_iridescence",
+                                              "KHR_materials_sheen",
+                                              "KHR_materials_specular",
+                                              "KHR_materials_transmission",
+                                              "KHR_materials_unlit",
+                                              "KHR_materials_volume",
+                                              "KHR_mesh_quantization",
+                                              "KHR_texture_transform",
+                                              "PARIAN_materials_conductor",
+                                              "PARIAN_materials_phong",
+                                              "PARIAN_materials_priority",
+                                              "PARIAN_shape"};
   return names.contains(name);
 }
 
@@ -131,6 +150,7 @@ void conform(nlohmann::json& document, const std::string& file) {
   check_version(document["asset"], file);
   check_relations(document, file);
   check_shapes(document, file);
+  check_materials(document, file);
 }
 
 }  // namespace parian

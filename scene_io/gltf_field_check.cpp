@@ -158,13 +158,18 @@ class FieldCheck {
     const bool is_index = !field.array.empty();
     const double low = is_index ? 0 : field.low;
     const double high = is_index ? double(sizes_.at(field.array)) - 1 : field.high;
-    const double number = value.is_number() ? value.get<double>() : -1;
+    const double number = value.is_number() ? value.get<double>() : NAN;
     const bool fits = number >= low && number <= high && number == std::floor(number);
     if (!fits ||
         (!field.choices.empty() && std::ranges::find(field.choices, number) == field.choices.end())) {
       fail(place, describe(field));
     }
-    value = std::uint64_t(number);
+    // tinygltf wants what cannot be negative unsigned.
+    if (number < 0) {
+      value = std::int64_t(number);
+    } else {
+      value = std::uint64_t(number);
+    }
   }
 
   void real(json& value, const Field& field, const Place& place) {

@@ -9,18 +9,6 @@ constexpr double kMaxInt = 2147483647;  // what tinygltf holds in an int
 constexpr double kHalfPi = 1.5707964;   // the float above pi / 2
 constexpr double kBelowPi = 3.1415925;
 
-/// A textureInfo: the reference to a texture, with what `more` members its place in the material adds.
-Field texture(std::string key, std::vector<Field> more = {}) {
-  Field field = object(
-      std::move(key),
-      {index("index", "/textures").required(), integer("texCoord").between(0, kMaxInt),
-       object("extensions",
-              {object("KHR_texture_transform", {numbers("offset", 2), number("rotation"), numbers("scale", 2),
-                                                integer("texCoord").between(0, kMaxInt)})})});
-  for (Field& member : more) field.fields.push_back(std::move(member));
-  return field;
-}
-
 Field accessors() {
   return list("accessors",
               {index("bufferView", "/bufferViews"), integer("byteOffset"),
@@ -56,28 +44,6 @@ Field cameras() {
                                     {number("focalLength").positive().required(),
                                      numbers("sensorSize", 2).positive().required(),
                                      number("fStop").positive(), number("focusDistance").at_least(0)})})});
-}
-
-Field material_extensions() {
-  return object("extensions",
-                {object("KHR_materials_emissive_strength", {number("emissiveStrength").at_least(0)}),
-                 object("KHR_materials_ior", {number("ior").at_least(0)}),
-                 object("KHR_materials_specular",
-                        {number("specularFactor").between(0, 1), texture("specularTexture"),
-                         numbers("specularColorFactor", 3).at_least(0), texture("specularColorTexture")}),
-                 object("KHR_materials_unlit", {})});
-}
-
-Field materials() {
-  return list("materials",
-              {text("name"),
-               object("pbrMetallicRoughness",
-                      {numbers("baseColorFactor", 4).between(0, 1), texture("baseColorTexture"),
-                       number("metallicFactor").between(0, 1), number("roughnessFactor").between(0, 1),
-                       texture("metallicRoughnessTexture")}),
-               texture("normalTexture", {number("scale")}), numbers("emissiveFactor", 3).between(0, 1),
-               texture("emissiveTexture"), text("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
-               number("alphaCutoff").at_least(0), flag("doubleSided"), material_extensions()});
 }
 
 Field meshes() {
@@ -153,7 +119,7 @@ std::vector<Field> document_fields() {
       list("buffers", {text("uri"), integer("byteLength").at_least(1).required()}),
       cameras(),
       list("images", {text("name"), text("uri"), index("bufferView", "/bufferViews")}),
-      materials(),
+      material_fields(),
       meshes(),
       nodes(),
       list("samplers", {choice("magFilter", {9728, 9729}), choice("wrapS", wrap), choice("wrapT", wrap)}),

@@ -13,6 +13,13 @@ namespace parian {
 /// The members of a glTF document that Parian reads, with those of the extensions that it reads.
 std::vector<Field> document_fields();
 
+/// Of these, the materials.
+Field material_fields();
+
+/// The rules for materials that fields cannot say, of a document that its fields have passed. Throws
+/// InputError.
+void check_materials(const nlohmann::json& document, const std::string& file);
+
 /// Whether Parian reads the glTF extension of this name.
 bool reads_extension(const std::string& name);
 

@@ -36,6 +36,27 @@ const char* pixel_type_name(PixelType type) {
   return "";
 }
 
+/// What the materials have beyond metallic-roughness, and how many of them have it; empty where none has any.
+std::string describe_features(const std::vector<Material>& materials) {
+  std::string text;
+  const auto add = [&](const char* name, const auto& has) {
+    if (const auto count = std::ranges::count_if(materials, has))
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+  };
+  add("transmission", [](const Material& m) { return m.transmission.has_value(); });
+  add("volume", [](const Material& m) { return m.volume.has_value(); });
+  add("dispersion", [](const Material& m) { return m.dispersion > 0; });
+  add("priority", [](const Material& m) { return m.priority != 0; });
+  add("diffuse transmission", [](const Material& m) { return m.diffuse_transmission.has_value(); });
+  add("clearcoat", [](const Material& m) { return m.clearcoat.has_value(); });
+  add("sheen", [](const Material& m) { return m.sheen.has_value(); });
+  add("anisotropy", [](const Material& m) { return m.anisotropy.has_value(); });
+  add("iridescence", [](const Material& m) { return m.iridescence.has_value(); });
+  add("Phong", [](const Material& m) { return m.phong.has_value(); });
+  add("conductor", [](const Material& m) { return m.conductor.has_value(); });
+  return text;
+}
+
 }  // namespace
 
 SceneStatistics scene_statistics(const Scene& scene, const World& world) {
@@ -77,6 +98,8 @@ std::string describe(const Scene& scene, const World& world) {
   }
   line("materials",
        fmt::format("{}, {} primitives tested for alpha", scene.materials.size(), s.alpha_primitives));
+  if (const std::string features = describe_features(scene.materials); !features.empty())
+    line("with", features);
   line("lights",
        fmt::format("{} emissive triangles, {} emissive solids, {} rectangles and disks, {} punctual, {}",
                    s.emissive_triangles, s.emissive_solids, world.area_lights.size(),

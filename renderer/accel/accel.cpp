@@ -142,7 +142,8 @@ struct Accel::Impl {
   /// Robust: without it rays slip through shared edges.
   RTCScene new_scene() const {
     RTCScene result = rtcNewScene(device);
-    rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
+    // What only media need, others do not pay for.
+    rtcSetSceneFlags(result, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (world->media.empty() ? 0 : kVisitable)));
     rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
     return result;
   }
@@ -162,6 +163,19 @@ struct Accel::Impl {
     if (entry.placement == Hit::kSolid) [[unlikely]]
       return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, normal());
     return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle, 0};
+  }
+
+  /// Keeps every hit that Embree shows, and lets it look on.
+  static void collect(const RTCFilterFunctionNArguments* a) {
+    Crossings& crossings = *static_cast<const Query*>(a->context)->crossings;
+    const Impl& accel = *static_cast<const Impl*>(crossings.accel);
+    filter_hits(a, [&](unsigned i) {
+      crossings.add(accel.to_hit(RTCRayN_tfar(a->ray, a->N, i), RTCHitN_u(a->hit, a->N, i),
+                                 RTCHitN_v(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0),
+                                 RTCHitN_geomID(a->hit, a->N, i), RTCHitN_primID(a->hit, a->N, i),
+                                 [] { return Vec3f(0); }));
+      return false;
+    });
   }
 
   RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
@@ -379,6 +393,19 @@ std::uint32_t Accel::occluded(const RayPacket& rays) const {
   std::uint32_t blocked = 0;
   for (int i = 0; i < rays.count; ++i) blocked |= std::uint32_t(r.tfar[i] < 0) << i;
   return blocked;
+}
+
+std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits) const {
+  assert(!impl_->world->media.empty());
+  Crossings crossings{.hits = hits, .accel = impl_.get()};
+  Query query(impl_->scene, impl_->world, &random, false);
+  query.crossings = &crossings;
+  RTCRayHit r;
+  set_ray(r.ray, ray);
+  r.hit.geomID = kInvalid;
+  r.hit.instID[0] = kInvalid;
+  embree_visit(impl_->top, r, query, Impl::collect);
+  return crossings.count;
 }
 
 std::size_t Accel::bytes() const { return std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load())); }

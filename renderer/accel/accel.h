@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "renderer/scene/surface.h"
 
@@ -71,6 +72,11 @@ class Accel {
   /// The same; bit i says that ray i is blocked. Cheaper where they end in one place, as shadow rays to a
   /// lamp do.
   std::uint32_t occluded(const RayPacket& rays) const;
+
+  /// Everything that a ray of any direction crosses in (0, tmax), in no order, each surface at each place
+  /// once: puts it into `hits`, as far as there is room, and returns how many. For worlds that have media;
+  /// others are not built for it.
+  std::size_t crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits) const;
 
   std::size_t bytes() const;  // what Embree holds now
   BuildCounts builds() const;

@@ -33,6 +33,15 @@ inline RTCOccludedArguments occluded_arguments(EmbreeContext& context) {
   arguments.flags = context.flags;
   return arguments;
 }
+/// What a scene must be told for embree_visit().
+inline constexpr RTCSceneFlags kVisitable = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+/// Shows a filter everything that the ray meets, after the geometries' own filters.
+inline void embree_visit(RTCScene scene, RTCRayHit& ray, EmbreeContext& context, RTCFilterFunctionN filter) {
+  RTCIntersectArguments arguments = intersect_arguments(context);
+  arguments.filter = filter;
+  arguments.flags = RTCRayQueryFlags(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+  rtcIntersect1(scene, &ray, &arguments);
+}
 inline void embree_intersect(RTCScene scene, RTCRayHit& ray, EmbreeContext& context) {
   RTCIntersectArguments arguments = intersect_arguments(context);
   rtcIntersect1(scene, &ray, &arguments);
@@ -50,11 +59,18 @@ inline void embree_occluded(RTCScene scene, const int* valid, RTCRay16& rays, Em
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 #else
+/// What a scene must be told for embree_visit().
+inline constexpr RTCSceneFlags kVisitable = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 using EmbreeContext = RTCIntersectContext;
 /// `coherent`: the rays of a packet run along each other.
 inline void init_context(EmbreeContext& context, bool coherent) {
   rtcInitIntersectContext(&context);
   context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+}
+/// Shows a filter everything that the ray meets, after the geometries' own filters.
+inline void embree_visit(RTCScene scene, RTCRayHit& ray, EmbreeContext& context, RTCFilterFunctionN filter) {
+  context.filter = filter;
+  rtcIntersect1(scene, &context, &ray);
 }
 inline void embree_intersect(RTCScene scene, RTCRayHit& ray, EmbreeContext& context) {
   rtcIntersect1(scene, &context, &ray);

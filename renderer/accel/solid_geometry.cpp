@@ -79,7 +79,16 @@ void intersect_solids(const RTCIntersectFunctionNArguments* a) {
   RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
   for (unsigned i = 0; i < a->N; ++i) {
     Met met;
-    if (a->valid[i] != -1 || !Kind::meet(geometry, a->primID, LaneRay(rays, a->N, i), query, met)) continue;
+    LaneRay ray(rays, a->N, i);
+    if (a->valid[i] != -1 || !Kind::meet(geometry, a->primID, ray, query, met)) continue;
+    if (query.crossings) [[unlikely]] {
+      do {
+        // Beyond the crossing, whose t is a double.
+        ray.tnear = std::nextafter(float(met.crossing.t), kInfinity);
+        query.crossings->add(to_solid_hit(geometry, ray.tnear, a->primID, float(met.crossing.face), met.g));
+      } while (Kind::meet(geometry, a->primID, ray, query, met));
+      continue;
+    }
     RTCRayN_tfar(rays, a->N, i) = float(met.crossing.t);
     RTCHitN_Ng_x(hits, a->N, i) = met.g.x;
     RTCHitN_Ng_y(hits, a->N, i) = met.g.y;

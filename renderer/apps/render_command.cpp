@@ -169,10 +169,10 @@ std::string checkpoint_key(const RenderOptions& o) {
   const RenderSettings& s = o.settings;
   return fmt::format(
       "scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
-      "depth {} layers {}{}{}",
+      "depth {} clamp {} layers {}{}{}",
       hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
-      int(o.integrator_settings.strategy), o.integrator_settings.max_depth, s.layers.variance,
-      s.layers.sample_count, s.layers.features);
+      int(o.integrator_settings.strategy), o.integrator_settings.max_depth, o.integrator_settings.clamp,
+      s.layers.variance, s.layers.sample_count, s.layers.features);
 }
 
 /// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
@@ -287,6 +287,9 @@ Command add_render_command(CLI::App& app) {
   c.add_option("--max-depth", o.integrator_settings.max_depth,
                "path: scattering events of a path at most [100]")
       ->check(CLI::Range(0, 1 << 20).description(""));
+  c.add_option("--clamp", o.integrator_settings.clamp,
+               "path: radiance of a sample at most, to end fireflies; darkens the picture [none]")
+      ->check(number_between(1e-6, 1e30));
   c.add_option("--ao-distance", o.integrator_settings.occlusion_distance,
                "ao: metres within which an occluder counts; 0: any distance [0]")
       ->check(number_between(0, 1e30));

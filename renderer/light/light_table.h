@@ -1,13 +1,13 @@
 /// Every light of the scene in one table: emissive triangles and solids, area lights, punctual lights, the
-/// environment. One is chosen with a probability proportional to its power and then sampled.
+/// environment. One is chosen for the receiver and then sampled.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "renderer/base/distribution.h"
 #include "renderer/base/random.h"
 #include "renderer/light/environment.h"
+#include "renderer/light/light_choice.h"
 #include "renderer/scene/surface.h"
 
 namespace parian {
@@ -28,27 +28,28 @@ class LightTable {
  public:
   LightTable() = default;
   /// The scene and world must outlive the table.
-  LightTable(const Scene& scene, const World& world);
+  LightTable(const Scene& scene, const World& world, LightChoice choice = LightChoice::tree);
 
   bool empty() const { return count_ == 0; }
   int size() const { return count_; }
 
-  /// Samples a light as seen from p, by u in [0,1)^2 and, where there are many lights, one more number of the
-  /// sampler. Nothing where the chosen light does not reach p.
-  std::optional<LightSample> sample(const Vec3f& p, Vec2f u, Sampler& sampler) const;
+  /// Samples a light for a receiver, by u in [0,1)^2 and, where there are many lights, one more pair of
+  /// numbers of the sampler. Nothing where the chosen light does not reach it.
+  std::optional<LightSample> sample(const Receiver& to, Vec2f u, Sampler& sampler) const;
 
-  /// Density per solid angle with which sample() from the origin of a ray of unit direction d finds the point
-  /// of an emissive triangle that the ray hit, at distance hit.t; `cosine` is |d . ng| there.
-  float pdf_triangle(const Hit& hit, float cosine) const;
-  /// The same for an emissive solid that a ray from `origin` hit: a round sphere is sampled by its cone of
-  /// directions, any other solid by its area.
-  float pdf_solid(const Hit& hit, const Vec3f& origin, float cosine) const;
+  /// Density per solid angle with which sample() for a receiver finds the point of an emissive triangle that
+  /// a ray of unit direction d from there hit, at distance hit.t; `cosine` is |d . ng| there.
+  float pdf_triangle(const Hit& hit, const Receiver& to, float cosine) const;
+  /// The same for an emissive solid: a round sphere is sampled by its cone of directions, any other solid by
+  /// its area.
+  float pdf_solid(const Hit& hit, const Receiver& to, float cosine) const;
   /// The same for area light hit.triangle.
-  float pdf_area_light(const Hit& hit, float cosine) const;
+  float pdf_area_light(const Hit& hit, const Receiver& to, float cosine) const;
   /// What a ray that left the scene along unit direction d sees, and the density with which sample() finds d.
-  EnvironmentSample look_up_environment(const Vec3f& d) const;
+  EnvironmentSample look_up_environment(const Vec3f& d, const Receiver& to) const;
 
   const EnvironmentLight& environment() const { return environment_; }
+  const LightChooser& chooser() const { return chooser_; }
 
  private:
   struct EmissiveTriangle {
@@ -60,12 +61,21 @@ class LightTable {
 
   void add_placement(const Placement& placement);
   void add_solids();
+  LightChooser make_chooser(LightChoice choice) const;
   template <class UvsAt>
   float mean_emission(const Material& material, const UvsAt& uvs_at) const;
   float power(const EmissiveTriangle& emitter) const;
   float power(const PlacedSolid& solid) const;
   float power(const AreaLight& light) const;
   float power(const PunctualLight& light, float scene_radius) const;
+  std::vector<float> powers() const;
+  // Those of lights that have no place are of no intensity.
+  LightBounds bounds(const EmissiveTriangle& emitter, float power) const;
+  LightBounds bounds(const PlacedSolid& solid, float power) const;
+  LightBounds bounds(const AreaLight& light, float power) const;
+  LightBounds bounds(const PunctualLight& light) const;
+  std::vector<LightBounds> all_bounds(const std::vector<float>& powers) const;
+  std::vector<InfiniteLight> infinite_lights() const;
   // Samples of one light, which was chosen with `probability`.
   std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, float probability,
                                              const Vec3f& p, const Vec2f& u) const;
@@ -76,7 +86,9 @@ class LightTable {
   std::optional<LightSample> sample_punctual(const PunctualLight& light, float probability,
                                              const Vec3f& p) const;
   std::optional<LightSample> sample_environment(float probability, const Vec2f& u) const;
-  float choice(int light) const { return count_ == 1 ? 1 : distribution_.probability(light); }
+  float choice(const Receiver& to, int light) const {
+    return count_ == 1 ? 1 : chooser_.probability(to, light);
+  }
 
   const Scene* scene_ = nullptr;
   const World* world_ = nullptr;
@@ -87,7 +99,7 @@ class LightTable {
   EnvironmentLight environment_;
   // Lights are numbered: triangles, solids, area lights, punctual lights, environment.
   int first_solid_ = 0, first_area_ = 0, first_punctual_ = 0, environment_index_ = 0, count_ = 0;
-  Distribution1D distribution_;
+  LightChooser chooser_;
 };
 
 }  // namespace parian

@@ -74,7 +74,8 @@ class Check {
   const std::string& file_;
 };
 
-/// The parts of validate(): all meshes, and all nodes with the forest that they form.
+/// The parts of validate(): all materials, all meshes, and all nodes with the forest that they form.
+void validate_materials(const Scene& scene, const Check& check);
 void validate_meshes(const Scene& scene, const Check& check);
 void validate_nodes(const Scene& scene, const Check& check);
 

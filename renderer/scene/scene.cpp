@@ -15,14 +15,6 @@ void extend(std::vector<T>& target, const std::vector<T>& source) {
   target.insert(target.end(), source.begin(), source.end());
 }
 
-void shift_textures(Material& material, std::size_t by) {
-  for (TextureRef* ref :
-       {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-        &material.emission_texture, &material.specular_texture, &material.specular_color_texture}) {
-    shift(ref->texture, by);
-  }
-}
-
 }  // namespace
 
 Mat4d Transform::to_matrix() const {
@@ -72,7 +64,8 @@ void append(Scene& scene, const Scene& other) {
   for (Mesh& mesh : added.meshes) {
     for (Primitive& primitive : mesh.primitives) shift(primitive.material, materials);
   }
-  for (Material& material : added.materials) shift_textures(material, textures);
+  for (Material& material : added.materials)
+    for_each_texture(material, [&](TextureRef& use) { shift(use.texture, textures); });
   for (Texture& texture : added.textures) shift(texture.image, images);
   shift(added.environment.image, images);
 

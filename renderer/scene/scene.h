@@ -52,7 +52,86 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// glTF's metallic-roughness material. Colours are linear; a texture multiplies its factor.
+/// What a material may have beyond metallic-roughness, each named for its extension. Absent: the scene does
+/// not ask for it. Colours are linear; a texture multiplies its factor.
+
+/// KHR_materials_transmission: light that passes a dielectric surface instead of meeting its diffuse base.
+struct Transmission {
+  float factor = 0;
+  TextureRef texture;  // linear, in R
+  bool operator==(const Transmission&) const = default;
+};
+
+/// KHR_materials_volume. The surface bounds a homogeneous volume where thickness is above 0, and is
+/// thin-walled where it is 0.
+struct Volume {
+  float thickness = 0;
+  Rgb attenuation_color{1, 1, 1};
+  float attenuation_distance = 0;  // metres after which white light has the colour; 0: no attenuation
+  bool operator==(const Volume&) const = default;
+};
+
+/// KHR_materials_diffuse_transmission.
+struct DiffuseTransmission {
+  float factor = 0;
+  Rgb color{1, 1, 1};
+  TextureRef texture;        // linear, in A
+  TextureRef color_texture;  // sRGB
+  bool operator==(const DiffuseTransmission&) const = default;
+};
+
+/// KHR_materials_clearcoat.
+struct Clearcoat {
+  float factor = 0, roughness = 0;
+  TextureRef texture;            // linear, in R
+  TextureRef roughness_texture;  // linear, in G
+  TextureRef normal_texture;
+  float normal_scale = 1;
+  bool operator==(const Clearcoat&) const = default;
+};
+
+/// KHR_materials_sheen.
+struct SheenModel {
+  Rgb color{0, 0, 0};
+  float roughness = 0;
+  TextureRef color_texture;      // sRGB
+  TextureRef roughness_texture;  // linear, in A
+  bool operator==(const SheenModel&) const = default;
+};
+
+/// KHR_materials_anisotropy.
+struct Anisotropy {
+  float strength = 0;  // in [0, 1]
+  float rotation = 0;  // radians, counter-clockwise from the tangent
+  TextureRef texture;  // linear: direction in RG, strength in B
+  bool operator==(const Anisotropy&) const = default;
+};
+
+/// KHR_materials_iridescence: a thin film.
+struct Iridescence {
+  float factor = 0, ior = 1.3f;
+  float thickness_minimum = 100, thickness_maximum = 400;  // nanometres; without texture the maximum
+  TextureRef texture;                                      // linear, in R
+  TextureRef thickness_texture;                            // linear, in G
+  bool operator==(const Iridescence&) const = default;
+};
+
+/// PARIAN_materials_phong: a Lambert base and the normalised Phong lobe, in place of metallic-roughness.
+struct PhongModel {
+  Rgb diffuse{0, 0, 0}, specular{1, 1, 1};
+  float exponent = 1;
+  bool operator==(const PhongModel&) const = default;
+};
+
+/// PARIAN_materials_conductor: a metal of complex index of refraction eta + i k, in place of
+/// metallic-roughness. Its roughness is the material's; 0 is a mirror.
+struct ConductorModel {
+  Rgb eta{1, 1, 1}, k{0, 0, 0};
+  bool operator==(const ConductorModel&) const = default;
+};
+
+/// glTF's metallic-roughness material with its extensions. Colours are linear; a texture multiplies its
+/// factor.
 struct Material {
   std::string name;
   Rgb base_color{1, 1, 1};
@@ -69,12 +148,47 @@ struct Material {
   Rgb specular_color{1, 1, 1};
   TextureRef specular_texture;        // linear, in A
   TextureRef specular_color_texture;  // sRGB
+  std::optional<Transmission> transmission;
+  std::optional<Volume> volume;
+  std::optional<DiffuseTransmission> diffuse_transmission;
+  std::optional<Clearcoat> clearcoat;
+  std::optional<SheenModel> sheen;
+  std::optional<Anisotropy> anisotropy;
+  std::optional<Iridescence> iridescence;
+  std::optional<PhongModel> phong;  // at most one of phong and conductor
+  std::optional<ConductorModel> conductor;
+  float dispersion = 0;  // KHR_materials_dispersion: 20 over the Abbe number; of a volume
+  int priority = 0;      // PARIAN_materials_priority: where volumes overlap, the highest is there
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;  // KHR_materials_unlit: base colour is what is seen, no light transport
+
+  /// Whether its surface bounds a volume that light enters.
+  bool has_interior() const {
+    return volume && volume->thickness > 0 && (transmission || diffuse_transmission);
+  }
   bool operator==(const Material&) const = default;
 };
+
+/// Calls visit(texture) for every use of a texture that a material (const or not) can have, set or not.
+template <class AnyMaterial, class Visit>
+void for_each_texture(AnyMaterial& m, const Visit& visit) {
+  for (auto* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                  &m.emission_texture, &m.specular_texture, &m.specular_color_texture})
+    visit(*t);
+  if (m.transmission) visit(m.transmission->texture);
+  if (m.diffuse_transmission)
+    for (auto* t : {&m.diffuse_transmission->texture, &m.diffuse_transmission->color_texture}) visit(*t);
+  if (m.clearcoat)
+    for (auto* t : {&m.clearcoat->texture, &m.clearcoat->roughness_texture, &m.clearcoat->normal_texture})
+      visit(*t);
+  if (m.sheen)
+    for (auto* t : {&m.sheen->color_texture, &m.sheen->roughness_texture}) visit(*t);
+  if (m.anisotropy) visit(m.anisotropy->texture);
+  if (m.iridescence)
+    for (auto* t : {&m.iridescence->texture, &m.iridescence->thickness_texture}) visit(*t);
+}
 
 using Triangle = std::array<std::uint32_t, 3>;
 

@@ -57,19 +57,45 @@ Tangent triangle_tangent(const Material& material, const Primitive& primitive, c
   return {tangent, n.cross(tangent).dot(bitangent) < 0 ? -1.0f : 1.0f};
 }
 
-/// The normal of the normal map (glTF 2.0, 3.9.3), in world space; n where the surface has no tangent there.
-Vec3f map_normal(const Scene& scene, const Surface& s, const Vec3f& n, const Tangent& t) {
+/// Keeps the tangent, and applies the normal map where there is one.
+Vec3f map_normal(const Scene& scene, Surface& s, const Vec3f& n, const Tangent& t) {
   const Material& material = *s.part->material;
-  Vec3f tangent = t.direction - n * n.dot(t.direction);
-  const float length = tangent.length();
-  if (!(length > 0)) return n;
-  tangent /= length;
-  const Vec3f bitangent = n.cross(tangent) * t.sign;
-  const Vec4f texel = eval_texture(scene, material.normal_texture, s.uvs, ColorSpace::linear);
-  const Vec3f m((2 * texel.x - 1) * material.normal_scale, (2 * texel.y - 1) * material.normal_scale,
-                2 * texel.z - 1);
-  const Vec3f mapped = tangent * m.x + bitangent * m.y + n * m.z;
-  return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
+  s.smooth_normal = n;
+  s.tangent = t.direction;
+  s.bitangent_sign = t.sign;
+  if (!material.normal_texture) return n;
+  return eval_normal_map(scene, s, material.normal_texture, material.normal_scale);
+}
+
+/// A shading normal so that the mirror direction of the viewer's is not below the surface: as near to ns as
+/// that can be. wo.n > 0 and ns.n > 0, n the geometric normal on the viewer's side.
+Vec3f bend_normal(const Vec3f& ns, const Vec3f& n, const Vec3f& wo) {
+  constexpr float kLeast = 1e-3f;  // cosine of what is reflected, at least; less where the viewer's is less
+  const Vec3f mirrored = ns * (2 * ns.dot(wo)) - wo;
+  const float least = std::min(kLeast, 0.9f * wo.dot(n)), height = mirrored.dot(n);
+  if (height >= least) return ns;
+  return direction_of(direction_of(mirrored + n * (least - height), n) + wo, n);
+}
+
+/// The mean of the point's projections onto the planes across the normals of the vertices, by its barycentric
+/// weights; where it is not below all of them the normals do not pretend a convex surface, and there is no
+/// lift.
+void set_lift(Surface& s, const Primitive& primitive, const Placement& placement, const Hit& hit) {
+  const Triangle& t = primitive.triangles[hit.triangle];
+  const Vec3f &a = primitive.positions[t[0]], &b = primitive.positions[t[1]], &c = primitive.positions[t[2]];
+  const float w = 1 - hit.u - hit.v, side = s.front ? 1.0f : -1.0f;
+  const Vec3f p = a * w + b * hit.u + c * hit.v;
+  bool convex = true;
+  const auto above = [&](const Vec3f& vertex, const Vec3f& normal, float weight) {
+    const float height = (p - vertex).dot(normal);
+    convex = convex && side * height <= 0;
+    return normal * (-weight * height);
+  };
+  const Vec3f lift = above(a, primitive.normals[t[0]], w) + above(b, primitive.normals[t[1]], hit.u) +
+                     above(c, primitive.normals[t[2]], hit.v);
+  s.lift = placement.identity ? lift : placement.to_world.vector(lift);
+  s.lifted = convex && s.lift.dot(s.ng) * side > 4 * s.offset;
+  if (!s.lifted) s.lift = Vec3f(0);
 }
 
 /// Turns a shading normal towards the viewer, and makes the frame around it. (Inlined at both of its calls,
@@ -78,6 +104,7 @@ Vec3f map_normal(const Scene& scene, const Surface& s, const Vec3f& n, const Tan
   if (!s.front) ns = -ns;
   // A shading normal that faces away from the viewer cannot be shaded: the geometric one takes its place.
   if (s.wo.dot(ns) <= 0) ns = s.front ? s.ng : -s.ng;
+  if (s.part->bends) ns = bend_normal(ns, s.front ? s.ng : -s.ng, s.wo);
   s.frame = make_frame(ns);
 }
 
@@ -111,11 +138,14 @@ Surface make_mesh_surface(const Scene& scene, const World& world, const Hit& hit
   s.front = s.wo.dot(s.ng) >= 0;
   if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
   s.color = part.needs_color ? interpolate(primitive.colors, t, hit.u, hit.v) : Vec4f(1);
+  s.lift = Vec3f(0);
+  s.lifted = false;
 
   Vec3f ns = s.ng;
   if (!primitive.normals.empty()) {
     const Vec3f local = interpolate(primitive.normals, t, hit.u, hit.v);
     ns = direction_of(placement.identity ? local : placement.to_world.normal(local), s.ng);
+    if (!part.bends && part.medium == kNone) set_lift(s, primitive, placement, hit);
   }
   if (part.needs_tangent)
     ns = map_normal(scene, s, ns, triangle_tangent(*part.material, primitive, placement, hit, ns, e1, e2));
@@ -137,6 +167,8 @@ Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hi
   s.front = s.wo.dot(s.ng) >= 0;
   s.uvs = {point.uv, point.uv};
   s.color = Vec4f(1);
+  s.lift = Vec3f(0);
+  s.lifted = false;
   Vec3f ns = s.ng;
   if (s.part->needs_tangent) {
     const float sign = m.determinant() < 0 ? -1.0f : 1.0f;
@@ -149,6 +181,32 @@ Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hi
 int hit_node(const World& world, const Hit& hit) {
   if (hit.placement == Hit::kAreaLightHit) return world.area_lights[hit.triangle].node;
   return hit.is_solid() ? world.solids[hit.solid()].node : world.placements[hit.placement].node;
+}
+
+Vec3f eval_normal_map(const Scene& scene, const Surface& s, const TextureRef& map, float scale) {
+  const Vec3f& n = s.smooth_normal;
+  Vec3f tangent = s.tangent - n * n.dot(s.tangent);
+  const float length = tangent.length();
+  if (!(length > 0)) return n;
+  tangent /= length;
+  const Vec3f bitangent = n.cross(tangent) * s.bitangent_sign;
+  const Vec4f texel = eval_texture(scene, map, s.uvs, ColorSpace::linear);
+  const Vec3f m((2 * texel.x - 1) * scale, (2 * texel.y - 1) * scale, 2 * texel.z - 1);
+  const Vec3f mapped = tangent * m.x + bitangent * m.y + n * m.z;
+  return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
+}
+
+Vec3f hit_normal(const World& world, const Hit& hit) {
+  if (hit.is_solid()) {
+    const PlacedSolid& placed = world.solids[hit.solid()];
+    const SolidPoint point = surface_point(placed.solid, {hit.u, hit.v, hit.w}, Face(hit.triangle));
+    return placed.to_world.normal(point.normal);
+  }
+  const Primitive& primitive = *hit_part(world, hit).primitive;
+  const Triangle& t = primitive.triangles[hit.triangle];
+  const Vec3f& v0 = primitive.positions[t[0]];
+  return world.placements[hit.placement].to_world.normal(
+      (primitive.positions[t[1]] - v0).cross(primitive.positions[t[2]] - v0));
 }
 
 float solid_offset(const Affine& to_world, const Vec3f& point) {

@@ -30,6 +30,15 @@ struct Surface {
   Vec3f wo;      // unit, towards where the ray came from
   bool front;    // wo is on the side of ng
   Frame frame;   // shading frame; frame.z is on the side of wo
+  // Where normals are interpolated, from p to the curved surface that they pretend, on the side of wo; zero
+  // where that is not above the triangle. `lifted`: it is more than rounding.
+  Vec3f lift;
+  bool lifted;
+  // Only where part->needs_tangent: the shading normal without its map, on the front side; the tangent, of
+  // any length and zero where there is none, and the side of the bitangent, its sign against smooth_normal x
+  // tangent.
+  Vec3f smooth_normal, tangent;
+  float bitangent_sign;
   const Part* part;
   std::array<Vec2f, 2> uvs;  // only where part->needs_uv
   Vec4f color;               // vertex colour, white where there is none
@@ -43,11 +52,28 @@ inline Surface make_surface(const Scene& scene, const World& world, const Hit& h
   return hit.is_solid() ? make_solid_surface(scene, world, hit, d) : make_mesh_surface(scene, world, hit, d);
 }
 
+/// The normal that a normal map gives (glTF 2.0, 3.9.3), unit, on the front side; smooth_normal where there
+/// is no tangent. The part needs a tangent.
+Vec3f eval_normal_map(const Scene& scene, const Surface& s, const TextureRef& map, float scale);
+
 /// The node that shows what was hit, which is not nothing.
 int hit_node(const World& world, const Hit& hit);
 
-/// Where a ray along w leaves: p moved to w's side of the surface, beyond the rounding error.
+/// The part that was hit, which is neither nothing nor an area light.
+inline const Part& hit_part(const World& world, const Hit& hit) {
+  return hit.is_solid() ? world.solid_parts[world.solids[hit.solid()].part]
+                        : world.part(hit.placement, hit.primitive);
+}
+
+/// The normal of what was hit, not of unit length: of its triangle or solid, on its front side, world space.
+Vec3f hit_normal(const World& world, const Hit& hit);
+
+/// Where a ray along w leaves: p moved to w's side of the surface, beyond the rounding error. From a surface
+/// that is lifted what the shading normal reflects leaves from there: from the triangle itself the light that
+/// the curved surface would still see is below the horizon, so that the terminator follows the triangles
+/// (Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II, chapter 4).
 inline Vec3f ray_origin(const Surface& s, const Vec3f& w) {
+  if (s.lifted && w.dot(s.frame.z) > 0) return s.p + s.lift + s.ng * (s.front ? s.offset : -s.offset);
   return s.p + s.ng * (w.dot(s.ng) < 0 ? -s.offset : s.offset);
 }
 

@@ -18,32 +18,6 @@ void check_image(const Image& image, const std::string& where, const Check& chec
     check.fail(where + "/pixels", fmt::format("expected {} bytes", expected));
 }
 
-void check_texture(const Scene& scene, const TextureRef& ref, const std::string& where, const Check& check) {
-  check.optional_index(ref.texture, scene.textures.size(), where + "/texture");
-  if (ref.uv_set != 0 && ref.uv_set != 1) check.fail(where + "/uv_set", "expected 0 or 1");
-  for (const float value : ref.transform) check.finite(value, where + "/transform");
-}
-
-void check_material(const Scene& scene, const Material& m, const std::string& where, const Check& check) {
-  constexpr float kMax = std::numeric_limits<float>::max();
-  check.color(m.base_color, 1, where + "/base_color");
-  check.range(m.alpha, 0, 1, where + "/alpha");
-  check.range(m.metallic, 0, 1, where + "/metallic");
-  check.range(m.roughness, 0, 1, where + "/roughness");
-  check.finite(m.normal_scale, where + "/normal_scale");
-  check.color(m.emission, kMax, where + "/emission");
-  if (m.ior != 0) check.range(m.ior, 1, kMax, where + "/ior");
-  check.range(m.specular, 0, 1, where + "/specular");
-  check.color(m.specular_color, kMax, where + "/specular_color");
-  check.not_negative(m.alpha_cutoff, where + "/alpha_cutoff");
-  check_texture(scene, m.base_color_texture, where + "/base_color_texture", check);
-  check_texture(scene, m.metallic_roughness_texture, where + "/metallic_roughness_texture", check);
-  check_texture(scene, m.normal_texture, where + "/normal_texture", check);
-  check_texture(scene, m.emission_texture, where + "/emission_texture", check);
-  check_texture(scene, m.specular_texture, where + "/specular_texture", check);
-  check_texture(scene, m.specular_color_texture, where + "/specular_color_texture", check);
-}
-
 void check_shape(const Shape& shape, const std::string& where, const Check& check) {
   switch (shape.kind) {
     case ShapeKind::sphere:
@@ -109,8 +83,7 @@ void validate(const Scene& scene, const std::string& file) {
   check.each("textures", scene.textures, [&](const Texture& texture, const std::string& where) {
     check.index(texture.image, scene.images.size(), where + "/image");
   });
-  check.each("materials", scene.materials,
-             [&](const Material& m, const std::string& where) { check_material(scene, m, where, check); });
+  validate_materials(scene, check);
   validate_meshes(scene, check);
   check.each("shapes", scene.shapes,
              [&](const Shape& shape, const std::string& where) { check_shape(shape, where, check); });

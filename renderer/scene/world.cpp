@@ -19,19 +19,28 @@ bool has_alpha(const Material& material, bool colored) {
          (material.alpha_mode == AlphaMode::mask && material.alpha_cutoff > 1);
 }
 
+bool uses_texture(const Material& m) {
+  bool any = false;
+  for_each_texture(m, [&](const TextureRef& texture) { any = any || texture; });
+  return any;
+}
+
 /// Of a primitive, or, where that is null, a solid.
 Part make_part(const Scene& scene, const Primitive* primitive, int material) {
   const Material& m = scene.materials[material];
-  const bool textured = m.base_color_texture || m.metallic_roughness_texture || m.normal_texture ||
-                        m.emission_texture || m.specular_texture || m.specular_color_texture;
   const bool colored = primitive && !primitive->colors.empty();
   return {.primitive = primitive,
           .material = &m,
           .material_index = material,
-          .needs_uv = textured,
+          .needs_uv = uses_texture(m),
           .needs_color = colored,
-          .needs_tangent = bool(m.normal_texture),
+          .needs_tangent = m.normal_texture || (m.anisotropy && m.anisotropy->strength > 0) ||
+                           (m.clearcoat && m.clearcoat->normal_texture),
           .emissive = !is_black(m.emission) && !m.unlit,
+          .bends = m.transmission || m.conductor,
+          .extended = m.transmission || m.diffuse_transmission || m.clearcoat || m.sheen || m.anisotropy ||
+                      m.iridescence || m.phong || m.conductor,
+          .medium = kNone,
           .alpha = has_alpha(m, colored),
           .bounds = {}};
 }
@@ -135,10 +144,20 @@ class WorldBuilder {
     for_each_node(scene_,
                   [&](int index, const Mat4d& to_world) { add_node(scene_.nodes[index], index, to_world); });
     world_.cameras = place_cameras(scene_);
+    for (std::vector<Part>* parts : {&world_.parts, &world_.solid_parts})
+      for (Part& part : *parts) part.medium = medium_of(part);
     return std::move(world_);
   }
 
  private:
+  /// The medium that a part bounds, one for each material that has an interior.
+  std::int32_t medium_of(const Part& part) {
+    if (!part.material->has_interior()) return kNone;
+    const auto [known, is_new] = media_.try_emplace(part.material_index, std::int32_t(world_.media.size()));
+    if (is_new) world_.media.push_back(make_medium(*part.material));
+    return known->second;
+  }
+
   void add_node(const Node& node, int index, const Mat4d& to_world) {
     if (node.shape != kNone && node.instances.size() > world_.solids.capacity())
       world_.solids.reserve(world_.solids.size() + node.instances.size());
@@ -220,6 +239,7 @@ class WorldBuilder {
   World world_;
   std::vector<std::uint32_t> first_part_;
   std::map<std::pair<int, int>, int> shape_meshes_;  // by shape and material
+  std::map<int, std::int32_t> media_;                // by material
   std::map<int, std::uint32_t> solid_parts_;         // by material
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/medium.h"
 #include "renderer/shapes/solid.h"
 
 namespace parian {
@@ -19,10 +19,13 @@ struct Part {
   int material_index;
   bool needs_uv;       // a texture of the material will be looked up
   bool needs_color;    // vertex colours are there
-  bool needs_tangent;  // there is a normal map
+  bool needs_tangent;  // a normal map, or anisotropy, needs the tangent
   bool emissive;
-  bool alpha;    // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
-  Box3f bounds;  // in object space; of a solid empty
+  bool bends;           // it mirrors or refracts: shading normals must not send light to the wrong side
+  bool extended;        // the material has an extension that shapes its lobes
+  std::int32_t medium;  // what the surface bounds, of World::media; kNone: nothing
+  bool alpha;           // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
+  Box3f bounds;         // in object space; of a solid empty
 };
 
 /// A mesh drawn once.
@@ -92,6 +95,7 @@ struct World {
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
   std::vector<CameraPlacement> cameras;
+  std::vector<Medium> media;  // of the materials that parts use
   std::uint32_t slot_count = 0;
   Box3f bounds;  // of all placed vertices, solids and area lights; empty where there are none
 
@@ -99,6 +103,8 @@ struct World {
     const std::size_t i = std::size_t(index), count = scene.meshes.size();
     return i < count ? scene.meshes[i] : *shape_meshes[i - count];
   }
+  /// What the surface of a part bounds; null: nothing.
+  const Medium* medium(const Part& p) const { return p.medium == kNone ? nullptr : &media[p.medium]; }
   std::size_t mesh_count(const Scene& scene) const { return scene.meshes.size() + shape_meshes.size(); }
   const Part& part(std::uint32_t placement, std::uint32_t primitive) const {
     return parts[placements[placement].first_part + primitive];

@@ -17,6 +17,7 @@ struct TraceContext {
   const World& world;
   const Accel& accel;
   const LightTable& lights;
+  const MediumStack& camera_media;  // around the camera
 };
 
 /// Rays traced, by kind.

@@ -6,6 +6,7 @@
 
 #include "renderer/base/parallel.h"
 #include "renderer/session/camera_rays.h"
+#include "renderer/session/media.h"
 
 namespace parian {
 namespace {
@@ -53,6 +54,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
   accel_ = std::make_unique<Accel>(*scene_, *world_, settings_.accel);
   build_lights();
   view_ = make_camera_view(*scene_, world_->cameras.at(settings_.camera), settings_.width, settings_.height);
+  camera_media_ = find_media(*world_, *accel_, view_.to_world.origin);
   for (const Part& part : world_->parts) stats_.triangles += part.primitive->triangles.size();
   stats_.solids = world_->solids.size();
   stats_.build_seconds = seconds_since(start);
@@ -151,7 +153,7 @@ void Session::render_tile(const Tile& area, std::uint32_t target) {
 }
 
 void Session::render_block(FilmTile& tile, const Tile& block, std::uint32_t target, RayCounts& counts) const {
-  const TraceContext context{*scene_, *world_, *accel_, *lights_};
+  const TraceContext context{*scene_, *world_, *accel_, *lights_, camera_media_};
   const bool features_wanted = !tile.features.empty();
   const auto index = [&](int x, int y) {
     return std::size_t(y - tile.area.y0) * (tile.area.x1 - tile.area.x0) + (x - tile.area.x0);
@@ -200,6 +202,7 @@ void Session::update(std::shared_ptr<const Scene> scene, unsigned changed) {
   view_ = make_camera_view(*scene, cameras.at(settings_.camera), settings_.width, settings_.height);
   // A camera moves nothing that rays meet: the scene traced so far stays.
   if (changed & ~unsigned(kChangedCamera)) retrace(std::move(scene), changed);
+  camera_media_ = find_media(*world_, *accel_, view_.to_world.origin);
   film_.clear();
   finished_samples_ = 0;
   if (was_running) start();
@@ -219,7 +222,8 @@ void Session::retrace(std::shared_ptr<const Scene> scene, unsigned changed) {
            std::ranges::equal(world->solids, world_->solids, same_kind) &&
            std::ranges::equal(world->placements, world_->placements, {}, &Placement::mesh,
                               &Placement::mesh) &&
-           world->area_lights.size() == world_->area_lights.size();
+           world->area_lights.size() == world_->area_lights.size() &&
+           world->media.empty() == world_->media.empty();
   };
   if ((changed & kChangedGeometry) || !same_structure()) {
     accel_.reset();  // its memory before the new one's

@@ -95,6 +95,7 @@ class Session {
   std::unique_ptr<LightTable> lights_;
   PixelFilter filter_;
   CameraView view_;
+  MediumStack camera_media_;
   Film film_;
 
   std::thread thread_;

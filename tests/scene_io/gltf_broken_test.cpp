@@ -23,7 +23,31 @@ class GltfBroken : public GltfTest {
         "normalTexture": {"index": 0, "scale": 2},
         "emissiveFactor": [0, 0, 1], "alphaMode": "MASK", "alphaCutoff": 0.5,
         "extensions": {"KHR_materials_ior": {"ior": 1.4}, "KHR_materials_specular": {"specularFactor": 1},
-                       "KHR_materials_emissive_strength": {"emissiveStrength": 2}}}],
+                       "KHR_materials_emissive_strength": {"emissiveStrength": 2}}}, {
+        "extensions": {
+          "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
+          "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2,
+            "attenuationColor": [0.5, 0.6, 0.7], "thicknessTexture": {"index": 0}},
+          "KHR_materials_dispersion": {"dispersion": 1},
+          "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
+            "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorFactor": [1, 1, 0],
+            "diffuseTransmissionColorTexture": {"index": 0}},
+          "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 0},
+            "clearcoatRoughnessFactor": 0.5, "clearcoatRoughnessTexture": {"index": 0},
+            "clearcoatNormalTexture": {"index": 0, "scale": 1}},
+          "KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0},
+            "sheenRoughnessFactor": 0.5, "sheenRoughnessTexture": {"index": 0}},
+          "KHR_materials_anisotropy": {"anisotropyStrength": 1, "anisotropyRotation": 1,
+            "anisotropyTexture": {"index": 0}},
+          "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceTexture": {"index": 0},
+            "iridescenceIor": 1.5, "iridescenceThicknessMinimum": 100, "iridescenceThicknessMaximum": 200,
+            "iridescenceThicknessTexture": {"index": 0}},
+          "PARIAN_materials_phong": {"diffuse": [0, 0, 0], "specular": [1, 1, 1], "exponent": 9},
+          "PARIAN_materials_priority": {"priority": -3}}}, {
+        "extensions": {
+          "PARIAN_materials_conductor": {"eta": [1, 2, 3], "k": [4, 5, 6]}}}, {
+        "extensions": {
+          "PARIAN_materials_conductor": {"name": "gold"}}}],
       "textures": [{"source": 0, "sampler": 0}],
       "samplers": [{"wrapS": 33071, "magFilter": 9728}],
       "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 10},
@@ -148,7 +172,7 @@ std::vector<Mutation> structure_mutations() {
       {"/meshes/0/primitives/0/attributes/NORMAL", 2},
       {"/meshes/0/primitives/0/attributes/JOINTS_0", nullptr},
       {"/meshes/0/primitives/0/indices", 0},
-      {"/meshes/0/primitives/0/material", 1},
+      {"/meshes/0/primitives/0/material", 4},
       {"/meshes/0/primitives/0/mode", 7},
       {"/nodes/0/mesh", 1},
       {"/nodes/0/children", 1, "/nodes/0/children: expected an array of indices"},
@@ -162,7 +186,7 @@ std::vector<Mutation> structure_mutations() {
       {"/nodes/1/extensions/PARIAN_shape/shape", kRemoved},
       {"/nodes/1/extensions/PARIAN_shape/shape", 5},
       {"/nodes/1/extensions/PARIAN_shape/shape", 4, "/extensions/KHR_implicit_shapes/shapes/4/type"},
-      {"/nodes/1/extensions/PARIAN_shape/material", 1},
+      {"/nodes/1/extensions/PARIAN_shape/material", 4},
       {"/extensions/KHR_implicit_shapes/shapes", kRemoved, "/nodes/1/extensions/PARIAN_shape/shape"},
       {"/extensions/KHR_implicit_shapes/shapes/0/type", kRemoved},
       {"/extensions/KHR_implicit_shapes/shapes/0/sphere", kRemoved},
@@ -208,7 +232,9 @@ std::vector<Mutation> number_mutations() {
       {"/materials/0/alphaCutoff", -1},
       {"/materials/0/doubleSided", 1},
       {"/materials/0/extensions", json::array()},
-      {"/materials/0/extensions/KHR_materials_ior/ior", 0.5, "/materials/0/ior"},
+      {"/materials/0/extensions/KHR_materials_ior/ior", 0.5,
+       "/materials/0/extensions/KHR_materials_ior/ior: expected 0 or a number of at least 1"},
+      {"/materials/0/extensions/KHR_materials_ior/ior", -1},
       {"/materials/0/extensions/KHR_materials_specular/specularFactor", 1.5},
       {"/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", -1},
       {"/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", 1e300},
@@ -250,6 +276,67 @@ std::vector<Mutation> number_mutations() {
   };
 }
 
+std::vector<Mutation> material_extension_mutations() {
+  const std::string khronos = "/materials/1/extensions/KHR_materials_";
+  const std::string ours = "/materials/1/extensions/PARIAN_materials_";
+  const std::string eta_k = "/materials/2/extensions/PARIAN_materials_conductor";
+  const std::string named = "/materials/3/extensions/PARIAN_materials_conductor";
+  return {
+      {khronos + "transmission", 1},
+      {khronos + "transmission/transmissionFactor", 1.1},
+      {khronos + "transmission/transmissionTexture/index", 1},
+      {khronos + "volume/thicknessFactor", -1},
+      {khronos + "volume/thicknessTexture/index", 1},
+      {khronos + "volume/attenuationDistance", 0},
+      {khronos + "volume/attenuationColor/2", 1.5},
+      {khronos + "volume/attenuationColor", {1, 1}},
+      {khronos + "dispersion/dispersion", -0.1},
+      {khronos + "diffuse_transmission/diffuseTransmissionFactor", -0.1},
+      {khronos + "diffuse_transmission/diffuseTransmissionTexture/index", kRemoved},
+      {khronos + "diffuse_transmission/diffuseTransmissionColorFactor/0", 2},
+      {khronos + "diffuse_transmission/diffuseTransmissionColorTexture/texCoord", -1},
+      {khronos + "clearcoat/clearcoatFactor", 2},
+      {khronos + "clearcoat/clearcoatTexture", 0},
+      {khronos + "clearcoat/clearcoatRoughnessFactor", "rough"},
+      {khronos + "clearcoat/clearcoatRoughnessTexture/index", 9},
+      {khronos + "clearcoat/clearcoatNormalTexture/index", 9},
+      {khronos + "clearcoat/clearcoatNormalTexture/scale", nullptr},
+      {khronos + "sheen/sheenColorFactor/1", -1},
+      {khronos + "sheen/sheenColorTexture/index", 9},
+      {khronos + "sheen/sheenRoughnessFactor", 1.5},
+      {khronos + "sheen/sheenRoughnessTexture/index", 9},
+      {khronos + "anisotropy/anisotropyStrength", 1.5},
+      {khronos + "anisotropy/anisotropyRotation", 1e39},
+      {khronos + "anisotropy/anisotropyTexture/index", 9},
+      {khronos + "iridescence/iridescenceFactor", -1},
+      {khronos + "iridescence/iridescenceTexture/index", 9},
+      {khronos + "iridescence/iridescenceIor", 0.9},
+      {khronos + "iridescence/iridescenceThicknessMinimum", -1},
+      {khronos + "iridescence/iridescenceThicknessMaximum", -1},
+      {khronos + "iridescence/iridescenceThicknessTexture/index", 9},
+      {ours + "phong/diffuse", kRemoved},
+      {ours + "phong/diffuse/0", 1.1},
+      {ours + "phong/specular", kRemoved},
+      {ours + "phong/specular/2", -0.1},
+      {ours + "phong/exponent", kRemoved},
+      {ours + "phong/exponent", -1},
+      {ours + "priority/priority", 0.5},
+      {ours + "priority/priority", "1"},
+      {ours + "priority/priority", 2147483648},
+      {ours + "conductor",
+       {{"name", "gold"}},
+       ours + "phong: expected no such member beside PARIAN_materials_conductor"},
+      {eta_k + "/eta", kRemoved, eta_k + "/eta: expected 3 numbers, each of at least 0, since there is no"},
+      {eta_k + "/k", kRemoved},
+      {eta_k + "/eta/1", -1},
+      {eta_k + "/k/1", 1e39},
+      {eta_k + "/name", "gold", eta_k + "/eta: expected no such member, since name says"},
+      {named + "/k", {1, 1, 1}, named + "/k: expected no such member, since name says"},
+      {named + "/name", kRemoved, named + "/eta"},
+      {named + "/name", "cheese", named + "/name: expected one of \"silver\", \"gold\", \"copper\", "},
+  };
+}
+
 void remove(json& root, const json::json_pointer& place) {
   json& parent = root.at(place.parent_pointer());
   if (parent.is_array()) parent.erase(std::stoul(place.back()));
@@ -259,6 +346,7 @@ void remove(json& root, const json::json_pointer& place) {
 TEST_F(GltfBroken, IsRefusedWithThePlace) {
   std::vector<Mutation> mutations = structure_mutations();
   for (Mutation& mutation : number_mutations()) mutations.push_back(std::move(mutation));
+  for (Mutation& mutation : material_extension_mutations()) mutations.push_back(std::move(mutation));
   for (const Mutation& mutation : mutations) {
     GltfBuilder broken = builder_;
     const json::json_pointer place(mutation.place);
@@ -276,12 +364,13 @@ TEST_F(GltfBroken, IsRefusedWithThePlace) {
 }
 
 TEST_F(GltfBroken, WarnsOfWhatItIgnores) {
-  builder_.root["extensionsUsed"] = {"KHR_materials_ior", "ACME_magic", "ACME_magic", "KHR_materials_sheen"};
+  builder_.root["extensionsUsed"] = {"KHR_materials_ior", "ACME_magic", "ACME_magic",
+                                     "KHR_materials_variants"};
   EXPECT_EQ(refusal(builder_.glb()), "");
   const std::string file = path("scene.glb");
   EXPECT_EQ(warnings,
             (std::vector<std::string>{file + ": ACME_magic is not supported and is ignored",
-                                      file + ": KHR_materials_sheen is not supported and is ignored"}));
+                                      file + ": KHR_materials_variants is not supported and is ignored"}));
 }
 
 TEST_F(GltfBroken, RefusesEveryPrefix) {

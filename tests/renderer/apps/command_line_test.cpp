@@ -75,6 +75,8 @@ TEST_F(CommandLine, BadNumbersAreTwo) {
     expect_refused(2, render_arguments({"--time", seconds}), "--time");
   expect_refused(2, render_arguments({"--time", "1", "--spp", "4"}), "--time");
   expect_refused(2, render_arguments({"--max-depth", "-1"}), "--max-depth");
+  for (const char* clamp : {"0", "-1", "nan"})
+    expect_refused(2, render_arguments({"--clamp", clamp}), "--clamp");
   expect_refused(2, render_arguments({"--seed", "-1"}), "--seed");
   expect_refused(2, render_arguments({"--exposure", "nan"}), "--exposure");
 }

@@ -59,7 +59,7 @@ float density(const LitScene& lit, const Vec3f& p, const Vec3f& w) {
       const Vec3f n = s.to_world.normal(surface_point(s.solid, q, c.face).normal).normalized();
       if (w.dot(n) >= 0 && !lit.world.solid_parts[s.part].material->double_sided) continue;
       const Hit hit{float(c.t), q.x, q.y, Hit::kSolid | i, 0, std::uint32_t(c.face), q.z};
-      sum += lit.table.pdf_solid(hit, p, std::abs(w.dot(n)));
+      sum += lit.table.pdf_solid(hit, {p, Vec3f(0)}, std::abs(w.dot(n)));
       if (round) break;  // a cone of directions: what is first met
     }
   }
@@ -157,7 +157,7 @@ TEST(SolidLights, AreChosenByTheAreaOfTheirImage) {
   for (int i = 0; i < kSamples; ++i) {
     Sampler sampler(SamplerKind::independent, 4, 0, 0, std::uint32_t(i));
     const Vec2f u = sampler.next2();
-    const auto s = lit.table.sample({0, 0, 0}, u, sampler);
+    const auto s = lit.table.sample({{0, 0, 0}, Vec3f(0)}, u, sampler);
     stretched_one += !s || s->wi.y < 0;  // half of the ellipsoid's points face away
   }
   EXPECT_NEAR(double(stretched_one) / kSamples, 21.478 / (21.478 + 12.566), 0.015);

@@ -51,11 +51,13 @@ Scene small_scene(const std::string& name) {
   scene.textures.emplace_back().image = 0;
   Material& material = scene.materials.emplace_back();
   material.name = name;
-  for (TextureRef* ref :
-       {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-        &material.emission_texture, &material.specular_texture, &material.specular_color_texture}) {
-    ref->texture = 0;
-  }
+  material.transmission.emplace();
+  material.diffuse_transmission.emplace();
+  material.clearcoat.emplace();
+  material.sheen.emplace();
+  material.anisotropy.emplace();
+  material.iridescence.emplace();
+  for_each_texture(material, [](TextureRef& ref) { ref.texture = 0; });
   scene.materials.emplace_back().name = "plain";
   Primitive primitive;
   primitive.positions = std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -90,11 +92,12 @@ TEST(Append, ShiftsEveryIndex) {
   EXPECT_EQ(scene.lights.at(std::size_t(scene.nodes[3].light)).name, "b");
   const Material& material = scene.materials.at(std::size_t(scene.meshes[1].primitives[0].material));
   EXPECT_EQ(material.name, "b");
-  for (const TextureRef& ref :
-       {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture,
-        material.emission_texture, material.specular_texture, material.specular_color_texture}) {
+  int uses = 0;
+  for_each_texture(material, [&](const TextureRef& ref) {
     EXPECT_EQ(scene.images.at(std::size_t(scene.textures.at(std::size_t(ref.texture)).image)).name, "b");
-  }
+    ++uses;
+  });
+  EXPECT_EQ(uses, 17);
   EXPECT_FALSE(scene.materials[3].base_color_texture);
   EXPECT_EQ(scene.nodes[1], small_scene("a").nodes[1]);
   validate(scene, "scene");

@@ -116,6 +116,80 @@ TEST(Validate, RefusesBadTables) {
   });
 }
 
+// With every group that a material may have.
+Material& full_material(Scene& scene) {
+  Material& m = scene.materials[0];
+  m.transmission.emplace();
+  m.volume.emplace();
+  m.diffuse_transmission.emplace();
+  m.clearcoat.emplace();
+  m.sheen.emplace();
+  m.anisotropy.emplace();
+  m.iridescence.emplace().thickness_minimum = 1000;  // may be above the maximum
+  m.phong.emplace();
+  m.dispersion = 5;
+  m.priority = -1;
+  return m;
+}
+
+TEST(Validate, RefusesBadMaterialGroups) {
+  Scene good = good_scene();
+  full_material(good);
+  EXPECT_EQ(refusal(good), "");
+  const std::vector<std::pair<std::function<void(Material&)>, std::string>> changes = {
+      {[](Material& m) { m.transmission->factor = 1.5f; }, "transmission/factor"},
+      {[](Material& m) { m.transmission->texture.texture = 1; }, "transmission/texture/texture"},
+      {[](Material& m) { m.volume->thickness = -1; }, "volume/thickness"},
+      {[](Material& m) { m.volume->attenuation_color.y = 2; }, "volume/attenuation_color"},
+      {[](Material& m) { m.volume->attenuation_distance = kInfinity; }, "volume/attenuation_distance"},
+      {[](Material& m) { m.diffuse_transmission->factor = kNan; }, "diffuse_transmission/factor"},
+      {[](Material& m) { m.diffuse_transmission->color.z = -1; }, "diffuse_transmission/color"},
+      {[](Material& m) { m.diffuse_transmission->texture.texture = 1; },
+       "diffuse_transmission/texture/texture"},
+      {[](Material& m) { m.diffuse_transmission->color_texture.texture = 1; },
+       "diffuse_transmission/color_texture/texture"},
+      {[](Material& m) { m.clearcoat->factor = 2; }, "clearcoat/factor"},
+      {[](Material& m) { m.clearcoat->roughness = -1; }, "clearcoat/roughness"},
+      {[](Material& m) { m.clearcoat->texture.texture = 1; }, "clearcoat/texture/texture"},
+      {[](Material& m) { m.clearcoat->roughness_texture.uv_set = 2; }, "clearcoat/roughness_texture/uv_set"},
+      {[](Material& m) { m.clearcoat->normal_texture.texture = 1; }, "clearcoat/normal_texture/texture"},
+      {[](Material& m) { m.clearcoat->normal_scale = kNan; }, "clearcoat/normal_scale"},
+      {[](Material& m) { m.sheen->color.x = 1.5f; }, "sheen/color"},
+      {[](Material& m) { m.sheen->roughness = 2; }, "sheen/roughness"},
+      {[](Material& m) { m.sheen->color_texture.texture = 1; }, "sheen/color_texture/texture"},
+      {[](Material& m) { m.sheen->roughness_texture.texture = 1; }, "sheen/roughness_texture/texture"},
+      {[](Material& m) { m.anisotropy->strength = -1; }, "anisotropy/strength"},
+      {[](Material& m) { m.anisotropy->rotation = kInfinity; }, "anisotropy/rotation"},
+      {[](Material& m) { m.anisotropy->texture.transform[0] = kNan; }, "anisotropy/texture/transform"},
+      {[](Material& m) { m.iridescence->factor = 2; }, "iridescence/factor"},
+      {[](Material& m) { m.iridescence->ior = 0; }, "iridescence/ior"},
+      {[](Material& m) { m.iridescence->thickness_minimum = -1; }, "iridescence/thickness_minimum"},
+      {[](Material& m) { m.iridescence->thickness_maximum = kNan; }, "iridescence/thickness_maximum"},
+      {[](Material& m) { m.iridescence->texture.texture = 1; }, "iridescence/texture/texture"},
+      {[](Material& m) { m.iridescence->thickness_texture.texture = 1; },
+       "iridescence/thickness_texture/texture"},
+      {[](Material& m) { m.phong->diffuse.x = 2; }, "phong/diffuse"},
+      {[](Material& m) { m.phong->specular.x = kNan; }, "phong/specular"},
+      {[](Material& m) { m.phong->exponent = -1; }, "phong/exponent"},
+      {[](Material& m) { m.conductor.emplace(); }, "phong"},
+      {[](Material& m) {
+         m.phong.reset();
+         m.conductor.emplace().eta.y = -1;
+       },
+       "conductor/eta"},
+      {[](Material& m) {
+         m.phong.reset();
+         m.conductor.emplace().k.z = kInfinity;
+       },
+       "conductor/k"},
+      {[](Material& m) { m.dispersion = -1; }, "dispersion"},
+      {[](Material& m) { m.ior = kInfinity; }, "ior"},
+  };
+  for (const auto& [change, place] : changes) {
+    expect_refused({{[&](Scene& s) { change(full_material(s)); }, "/materials/0/" + place}});
+  }
+}
+
 TEST(Validate, RefusesBadMeshes) {
   const std::string place = "/meshes/0/primitives/0";
   expect_refused({

@@ -10,7 +10,8 @@ namespace parian {
 
 /// A scene with its world and table, which point into it.
 struct LitScene {
-  explicit LitScene(Scene s) : scene(std::move(s)), world(make_world(scene)), table(scene, world) {}
+  explicit LitScene(Scene s, LightChoice choice = LightChoice::tree)
+      : scene(std::move(s)), world(make_world(scene)), table(scene, world, choice) {}
   LitScene(const LitScene&) = delete;
   Scene scene;
   World world;
@@ -21,7 +22,7 @@ struct LitScene {
 inline std::optional<LightSample> sample(const LitScene& lit, const Vec3f& p, std::uint32_t i,
                                          std::uint32_t seed = 1) {
   Sampler sampler(SamplerKind::independent, seed, 0, 0, i);
-  return lit.table.sample(p, sampler.next2(), sampler);
+  return lit.table.sample({p, Vec3f(0)}, sampler.next2(), sampler);
 }
 
 }  // namespace parian

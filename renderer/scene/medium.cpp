@@ -1,0 +1,49 @@
+#include "renderer/scene/medium.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parian {
+
+Medium make_medium(const Material& material) {
+  const Volume& volume = *material.volume;
+  Rgb absorption(0, 0, 0);
+  if (volume.attenuation_distance > 0)
+    for (int k = 0; k < 3; ++k)
+      absorption[k] = -std::log(std::max(volume.attenuation_color[k], 1e-30f)) / volume.attenuation_distance;
+  return {material.ior, material.dispersion, absorption, material.priority};
+}
+
+float eval_ior(const Medium& medium, float wavelength) {
+  if (wavelength == 0 || medium.dispersion == 0) return medium.ior;
+  // n = A + B / l^2 with n(F) - n(C) = (n(d) - 1) / Abbe; wavelengths in micrometres.
+  constexpr float kC = 0.6563f, kD = 0.5876f, kF = 0.4861f;
+  const float b = (medium.ior - 1) * (medium.dispersion / 20) / (1 / (kF * kF) - 1 / (kC * kC));
+  const float l = wavelength * 1e-3f;
+  return std::max(medium.ior + b * (1 / (l * l) - 1 / (kD * kD)), 1.0f);
+}
+
+void MediumStack::cross(std::uint32_t body, const Medium* medium, bool into) {
+  const auto end = entries_.begin() + count_;
+  const auto entry = std::find_if(entries_.begin(), end,
+                                  [&](const Entry& e) { return e.body == body && e.medium == medium; });
+  if (into) {
+    if (entry != end)
+      ++entry->depth;
+    else if (count_ < kDepth)
+      entries_[std::size_t(count_++)] = {body, 1, medium};
+  } else if (entry != end && --entry->depth == 0) {
+    std::copy(entry + 1, end, entry);
+    --count_;
+  }
+}
+
+const Medium* MediumStack::current() const {
+  const Medium* best = nullptr;
+  for (int i = 0; i < count_; ++i)
+    if (!best || entries_[std::size_t(i)].medium->priority >= best->priority)
+      best = entries_[std::size_t(i)].medium;
+  return best;
+}
+
+}  // namespace parian
