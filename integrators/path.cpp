@@ -89,7 +89,8 @@ class Tracer {
     // Scatter: light sampled directly, then a direction to go on.
     const float eta = boundary ? relative_ior(path, *boundary) : 1;
     const Bsdf bsdf = make_bsdf(context_.scene, surface, eta);
-    path.from = {surface.p + surface.lift, bsdf.transmits() ? Vec3f(0) : surface.frame.z};
+    path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
+                 bsdf.transmits() ? Vec3f(0) : surface.frame.z};
     if (!context_.lights.empty())
       sample_direct_light(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers.light);
     if (!scatter(path, surface, bsdf, numbers.direction)) return false;

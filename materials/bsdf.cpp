@@ -181,6 +181,14 @@ Rgb eval_base_color(const Scene& scene, const Surface& s) {
   return color;
 }
 
+BsdfValue Bsdf::eval_lobe(const Vec3f& wi) const {
+  return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); }, lobe_);
+}
+
+std::optional<BsdfSample> Bsdf::sample_lobe(float u1, const Vec2f& u2) const {
+  return std::visit([&](const auto& lobe) { return lobe.sample(to_local(surface_.wo), u1, u2); }, lobe_);
+}
+
 Bsdf make_bsdf(const Scene& scene, const Surface& s, float eta) {
   const Material& m = *s.part->material;
   const Rgb base = eval_base_color(scene, s);

@@ -29,14 +29,17 @@ class Bsdf {
   /// finds wi.
   BsdfValue eval(const Vec3f& wi) const {
     if (leaks(wi)) return {};
-    // Into the frame inside the choice: a lobe that does not look at a coordinate does not pay for it.
-    return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); },
-                      lobe_);
+    // The cheapest lobe in place: beside it the choice between the others, and the coordinates that it does
+    // not look at, would be felt.
+    if (const auto* lambert = std::get_if<Lambert>(&lobe_))
+      return lambert->eval(to_local(surface_.wo), to_local(wi));
+    return eval_lobe(wi);
   }
 
   std::optional<BsdfSample> sample(float u1, const Vec2f& u2) const {
+    const auto* lambert = std::get_if<Lambert>(&lobe_);
     std::optional<BsdfSample> s =
-        std::visit([&](const auto& lobe) { return lobe.sample(to_local(surface_.wo), u1, u2); }, lobe_);
+        lambert ? lambert->sample(to_local(surface_.wo), u1, u2) : sample_lobe(u1, u2);
     if (!s) return s;
     s->wi = surface_.frame.to_world(s->wi);
     if (leaks(s->wi)) return std::nullopt;
@@ -55,6 +58,8 @@ class Bsdf {
   bool beyond(const Vec3f& w) const { return (surface_.front ? w : -w).dot(surface_.ng) <= 0; }
 
  private:
+  BsdfValue eval_lobe(const Vec3f& wi) const;
+  std::optional<BsdfSample> sample_lobe(float u1, const Vec2f& u2) const;  // in the shading frame
   Vec3f to_local(const Vec3f& w) const { return surface_.frame.to_local(w); }
   /// Whether shading and geometric normal disagree about the side that w is on.
   bool leaks(const Vec3f& w) const {

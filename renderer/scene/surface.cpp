@@ -95,7 +95,6 @@ void set_lift(Surface& s, const Primitive& primitive, const Placement& placement
                      above(c, primitive.normals[t[2]], hit.v);
   s.lift = placement.identity ? lift : placement.to_world.vector(lift);
   s.lifted = convex && s.lift.dot(s.ng) * side > 4 * s.offset;
-  if (!s.lifted) s.lift = Vec3f(0);
 }
 
 /// Turns a shading normal towards the viewer, and makes the frame around it. (Inlined at both of its calls,
@@ -138,7 +137,6 @@ Surface make_mesh_surface(const Scene& scene, const World& world, const Hit& hit
   s.front = s.wo.dot(s.ng) >= 0;
   if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
   s.color = part.needs_color ? interpolate(primitive.colors, t, hit.u, hit.v) : Vec4f(1);
-  s.lift = Vec3f(0);
   s.lifted = false;
 
   Vec3f ns = s.ng;
@@ -167,7 +165,6 @@ Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hi
   s.front = s.wo.dot(s.ng) >= 0;
   s.uvs = {point.uv, point.uv};
   s.color = Vec4f(1);
-  s.lift = Vec3f(0);
   s.lifted = false;
   Vec3f ns = s.ng;
   if (s.part->needs_tangent) {

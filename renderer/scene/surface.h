@@ -30,10 +30,10 @@ struct Surface {
   Vec3f wo;      // unit, towards where the ray came from
   bool front;    // wo is on the side of ng
   Frame frame;   // shading frame; frame.z is on the side of wo
-  // Where normals are interpolated, from p to the curved surface that they pretend, on the side of wo; zero
-  // where that is not above the triangle. `lifted`: it is more than rounding.
-  Vec3f lift;
+  // Where normals are interpolated and pretend a curved surface above the triangle, by more than rounding:
+  // from p to that, on the side of wo. Else not lifted, and not set.
   bool lifted;
+  Vec3f lift;
   // Only where part->needs_tangent: the shading normal without its map, on the front side; the tangent, of
   // any length and zero where there is none, and the side of the bitangent, its sign against smooth_normal x
   // tangent.

@@ -185,10 +185,10 @@ void expect_sphere_light(const SphereCase& c, std::uint32_t spp, double toleranc
   Scene scene;
   add_receiver(scene, Rgb(0.5f, 0.5f, 0.5f));
   // A polyhedron whose area, and so its mean projection, is that of the unit sphere.
-  const Primitive unit = make_flat_sphere({0, 0, 0}, 1, 32);
+  const Primitive unit = make_flat_sphere({0, 0, 0}, 1, 64);
   const auto radius = float(std::sqrt(4 * std::numbers::pi / area_of(unit)));
   const double t = c.degrees * std::numbers::pi / 180;
-  add_mesh(scene, make_flat_sphere({0, 0, 0}, radius, 32), add_material(scene, make_emitter({3, 3, 3})),
+  add_mesh(scene, make_flat_sphere({0, 0, 0}, radius, 64), add_material(scene, make_emitter({3, 3, 3})),
            translate({float(c.h * std::sin(t)), float(c.h * std::cos(t)), 0}));
   const Picture p = render(scene, independent_settings(64, 64, spp));
   EXPECT_TRUE(mean_is(mean_of(p, 0), 3 * 0.5 * sphere_form_factor(c.h, t), tolerance))

@@ -56,7 +56,8 @@ TEST_F(GltfMaterialExtensions, HaveTheDefaultsOfTheirSpecifications) {
                                  .roughness_texture = {},
                                  .normal_texture = {},
                                  .normal_scale = 1};
-  expected.sheen = SheenModel{.color = {0, 0, 0}, .roughness = 0, .color_texture = {}, .roughness_texture = {}};
+  expected.sheen =
+      SheenModel{.color = {0, 0, 0}, .roughness = 0, .color_texture = {}, .roughness_texture = {}};
   expected.anisotropy = Anisotropy{.strength = 0, .rotation = 0, .texture = {}};
   expected.iridescence = Iridescence{.factor = 0,
                                      .ior = 1.3f,
@@ -144,9 +145,9 @@ TEST_F(GltfMaterialExtensions, ReadsSheen) {
                                  {"sheenColorTexture", nth(0)},
                                  {"sheenRoughnessTexture", nth(1)}}}});
   EXPECT_EQ(m.sheen, (SheenModel{.color = {.1f, .2f, .3f},
-                            .roughness = .4f,
-                            .color_texture = nth_ref(0),
-                            .roughness_texture = nth_ref(1)}));
+                                 .roughness = .4f,
+                                 .color_texture = nth_ref(0),
+                                 .roughness_texture = nth_ref(1)}));
 }
 
 TEST_F(GltfMaterialExtensions, ReadsAnisotropy) {
