@@ -39,17 +39,19 @@ struct Numbers {
   Vec2f light, direction;
 };
 
-/// The steps of paths that grow side by side.
+/// The steps of paths that grow side by side, in a world with media or without: one without has none of their
+/// code in its way.
+template <bool kMedia>
 class Tracer {
  public:
   Tracer(const TraceContext& context, const IntegratorSettings& settings, RayCounts& counts)
-      : context_(context), settings_(settings), counts_(counts), media_(!context.world.media.empty()) {}
+      : context_(context), settings_(settings), counts_(counts) {}
 
   void set_out(Path& path, CameraPath& camera) const {
     path.camera = &camera;
     path.weight = Rgb(1, 1, 1);
     path.pdf = kInfinity;
-    if (!media_) return;
+    if constexpr (!kMedia) return;
     path.media = context_.camera_media;
     path.scale = 1;
     path.wavelength = 0;
@@ -59,8 +61,8 @@ class Tracer {
   /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
   /// light that it samples, and where it goes. False where it ends.
   bool arrive(Path& path, int depth, const Numbers& numbers) {
-    if (media_) path.weight *= transmittance(path.media.current(), path.distance());
-    const Rgb carried = media_ ? path.weight * path.scale : path.weight;
+    if constexpr (kMedia) path.weight *= transmittance(path.media.current(), path.distance());
+    const Rgb carried = kMedia ? path.weight * path.scale : path.weight;
     Rgb& radiance = path.camera->radiance;
     // A ray that leaves the scene, or ends at a light without a surface, brings what it sees there.
     if (path.hit().placement == Hit::kMiss) {
@@ -73,7 +75,7 @@ class Tracer {
     }
     Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
     std::optional<Boundary> boundary;
-    if (surface.part->medium != kNone) [[unlikely]] {
+    if (kMedia && surface.part->medium != kNone) {
       boundary =
           find_boundary(context_, path.media, path.ray(), path.sampler().key(), path.camera->hit, surface);
       if (boundary && boundary->before == boundary->after) return pass(path, surface, *boundary);
@@ -83,7 +85,7 @@ class Tracer {
       return false;
     }
     if (surface.part->emissive) radiance += carried * emission(path, surface);
-    if (media_) depth -= path.passed;
+    if constexpr (kMedia) depth -= path.passed;
     if (depth == settings_.max_depth) return false;
 
     // Scatter: light sampled directly, then a direction to go on.
@@ -197,7 +199,7 @@ class Tracer {
                   (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
     if (is_black(path.direct)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
-    if (media_) {
+    if constexpr (kMedia) {
       const Medium* medium = path.media.current();
       float scale = path.scale;
       if (boundary && bsdf.beyond(light->wi)) {
@@ -236,20 +238,19 @@ class Tracer {
   const TraceContext& context_;
   const IntegratorSettings& settings_;
   RayCounts& counts_;
-  const bool media_;
   RayPacket shadow_rays_;
   std::array<Path*, RayPacket::kSize> waiting_;  // whose light the shadow rays ask about
 };
 
-}  // namespace
-
-void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath> camera_paths,
-                              RayCounts& counts, bool features_wanted) const {
+/// PathIntegrator::estimate().
+template <bool kMedia>
+void trace(const TraceContext& context, const IntegratorSettings& settings,
+           std::span<CameraPath> camera_paths, RayCounts& counts, bool features_wanted) {
   std::array<Path, RayPacket::kSize> paths;
   std::array<Path*, RayPacket::kSize> growing;
   std::array<Sampler*, RayPacket::kSize> samplers;  // of the growing paths
   std::size_t count = 0;
-  Tracer tracer(context, settings_, counts);
+  Tracer<kMedia> tracer(context, settings, counts);
   for (CameraPath& camera : camera_paths) {
     if (features_wanted && camera.hit.placement != Hit::kMiss)
       camera.features = hit_features(context, camera.hit, camera.ray.d);
@@ -275,11 +276,19 @@ void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath>
     tracer.add_direct_light();
     for (std::size_t i = 0; i < count; ++i) tracer.follow(*growing[i]);
   }
-  if (settings_.clamp < kInfinity)
+  if (settings.clamp < kInfinity)
     for (CameraPath& camera : camera_paths) {
       const float largest = max_component(camera.radiance);
-      if (largest > settings_.clamp) camera.radiance *= settings_.clamp / largest;
+      if (largest > settings.clamp) camera.radiance *= settings.clamp / largest;
     }
+}
+
+}  // namespace
+
+void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath> camera_paths,
+                              RayCounts& counts, bool features_wanted) const {
+  (context.world.media.empty() ? trace<false> : trace<true>)(context, settings_, camera_paths, counts,
+                                                             features_wanted);
 }
 
 }  // namespace parian

@@ -32,14 +32,9 @@ struct AnisotropicGgx {
     return g1(wo) * d(h) * std::max(0.0f, wo.dot(h)) / wo.z;
   }
 
-  /// A facet normal as seen from wo, as in ggx.h.
+  /// A facet normal as seen from wo.
   Vec3f sample_visible_normal(const Vec3f& wo, const Vec2f& u) const {
-    const Vec3f warped = normalize(Vec3f(wo.x * alpha_x, wo.y * alpha_y, wo.z));
-    const float phi = 2 * kPi * u.x;
-    const float z = (1 - u.y) * (1 + warped.z) - warped.z;
-    const float r = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
-    const Vec3f c = Vec3f(r * std::cos(phi), r * std::sin(phi), z) + warped;
-    return normalize(Vec3f(c.x * alpha_x, c.y * alpha_y, std::max(c.z, 1e-20f)));
+    return sample_visible_ggx_normal(wo, alpha_x, alpha_y, u);
   }
 };
 

@@ -3,6 +3,18 @@
 namespace parian {
 namespace {
 
+/// eval_base_color(), in place where every path comes by.
+[[gnu::always_inline]] inline Rgb base_color_at(const Scene& scene, const Surface& s) {
+  const Material& m = *s.part->material;
+  Rgb color = m.base_color;
+  if (s.part->needs_color) color *= Rgb(s.color.x, s.color.y, s.color.z);
+  if (m.base_color_texture) {
+    const Vec4f t = eval_texture(scene, m.base_color_texture, s.uvs, ColorSpace::srgb);
+    color *= Rgb(t.x, t.y, t.z);
+  }
+  return color;
+}
+
 /// Fresnel reflectance at normal incidence against air; ior 0 stands for infinity (KHR_materials_ior).
 float normal_reflectance(float ior) {
   if (ior == 0) return 1;
@@ -150,8 +162,10 @@ Layered make_layered(const Scene& scene, const Surface& s, const Rgb& base, floa
   return lobe;
 }
 
-/// The lobe of a material that has an extension: the smallest that holds what it has.
-Bsdf::AnyLobe make_extended(const Scene& scene, const Surface& s, const Rgb& base, float eta) {
+/// The lobe of a material that has an extension: the smallest that holds what it has. (Cold: in its place in
+/// make_bsdf() it would be felt by those that have none.)
+[[gnu::cold, gnu::noinline]] Bsdf::AnyLobe make_extended(const Scene& scene, const Surface& s,
+                                                         const Rgb& base, float eta) {
   const Material& m = *s.part->material;
   if (m.phong) return Phong{m.phong->diffuse, m.phong->specular, m.phong->exponent};
   const float roughness = eval_roughness(scene, s);
@@ -170,16 +184,7 @@ Bsdf::AnyLobe make_extended(const Scene& scene, const Surface& s, const Rgb& bas
 
 }  // namespace
 
-Rgb eval_base_color(const Scene& scene, const Surface& s) {
-  const Material& m = *s.part->material;
-  Rgb color = m.base_color;
-  if (s.part->needs_color) color *= Rgb(s.color.x, s.color.y, s.color.z);
-  if (m.base_color_texture) {
-    const Vec4f t = eval_texture(scene, m.base_color_texture, s.uvs, ColorSpace::srgb);
-    color *= Rgb(t.x, t.y, t.z);
-  }
-  return color;
-}
+Rgb eval_base_color(const Scene& scene, const Surface& s) { return base_color_at(scene, s); }
 
 BsdfValue Bsdf::eval_lobe(const Vec3f& wi) const {
   return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); }, lobe_);
@@ -191,7 +196,7 @@ std::optional<BsdfSample> Bsdf::sample_lobe(float u1, const Vec2f& u2) const {
 
 Bsdf make_bsdf(const Scene& scene, const Surface& s, float eta) {
   const Material& m = *s.part->material;
-  const Rgb base = eval_base_color(scene, s);
+  const Rgb base = base_color_at(scene, s);
   if (m.specular == 0 && m.metallic == 0 && !s.part->extended) return Bsdf(s, Lambert{base});
   if (s.part->extended) [[unlikely]]
     return Bsdf(s, make_extended(scene, s, base, eta));
@@ -207,8 +212,11 @@ Bsdf make_bsdf(const Scene& scene, const Surface& s, float eta) {
 }
 
 Rgb estimate_albedo(const Scene& scene, const Surface& s) {
+  const Material& m = *s.part->material;
   const Rgb base = eval_base_color(scene, s);
-  if (s.part->material->unlit) return base;
+  if (m.unlit) return base;
+  if (m.phong) return m.phong->diffuse + m.phong->specular;
+  if (m.conductor) return fresnel_conductor(1, m.conductor->eta, m.conductor->k);
   const Rgb f0 = eval_coat(scene, s).f0;
   return base * (1 - max_component(f0)) + f0;
 }

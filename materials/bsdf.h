@@ -51,7 +51,8 @@ class Bsdf {
 
   /// Whether light may come from beyond the surface.
   bool transmits() const {
-    return std::holds_alternative<Dielectric>(lobe_) || std::holds_alternative<Layered>(lobe_);
+    if (const auto* layered = std::get_if<Layered>(&lobe_)) return layered->transmits();
+    return std::holds_alternative<Dielectric>(lobe_);
   }
 
   /// Whether w is on the side of the surface that wo is not on.
@@ -82,7 +83,8 @@ Bsdf make_bsdf(const Scene& scene, const Surface& surface, float eta = 1);
 Rgb eval_base_color(const Scene& scene, const Surface& surface);
 
 /// The share of light from all directions that the surface reflects, roughly: base colour, plus what the coat
-/// reflects at normal incidence. For the albedo layer.
+/// reflects at normal incidence; of Phong both its terms, of a conductor what it reflects there. For the
+/// albedo layer.
 Rgb estimate_albedo(const Scene& scene, const Surface& surface);
 
 }  // namespace parian

@@ -11,9 +11,6 @@ namespace parian {
 struct Conductor {
   Rgb eta, k;  // refractive index eta + ik, relative to what is outside; >= 0
   Ggx ggx;     // alpha below Ggx::kMinAlpha: a mirror
-  /// Times f: for what is reflected between facets more than once, which one factor f alone loses. A mirror
-  /// loses nothing and ignores it.
-  Rgb compensation{1, 1, 1};
 
   /// eval() is nothing then, and sample() finds the mirror direction with infinite density.
   bool is_mirror() const { return ggx.alpha < Ggx::kMinAlpha; }
@@ -23,7 +20,7 @@ struct Conductor {
     const Vec3f h = normalize(wo + wi);
     // Of the visible normals' density, G1 D wo.h / cos wo, divided by 4 wo.h, the wo.h cancel.
     const float d = ggx.d(h) / (4 * wo.z);
-    const Rgb f = fresnel_conductor(std::clamp(wo.dot(h), 0.0f, 1.0f), eta, k) * compensation;
+    const Rgb f = fresnel_conductor(std::clamp(wo.dot(h), 0.0f, 1.0f), eta, k);
     return {f * (d * ggx.g2(wo, wi)), d * ggx.g1(wo)};
   }
 

@@ -12,13 +12,6 @@ const Rgb kWhite(1, 1, 1);
 
 bool has_sheen(const Sheen& sheen) { return !is_black(sheen.color); }
 
-/// What sheen leaves to the layer below it (KHR_materials_sheen).
-float below_sheen(const Sheen& sheen, const Vec3f& wo, const Vec3f& wi) {
-  if (!has_sheen(sheen)) return 1;
-  const float most = std::max(sheen_albedo(wo.z, sheen.alpha), sheen_albedo(std::abs(wi.z), sheen.alpha));
-  return std::max(0.0f, 1 - max_component(sheen.color) * most);
-}
-
 }  // namespace
 
 Layered::Reflectance Layered::reflectance(float cosine) const {
@@ -66,7 +59,7 @@ BsdfValue Layered::eval(const Vec3f& wo, const Vec3f& wi) const { return eval(wo
 
 BsdfValue Layered::eval(const Vec3f& wo, const Vec3f& wi, const std::array<float, kParts>& share) const {
   if (wi.z == 0) return {};
-  const float below = (1 - coat_reflectance(wo)) * below_sheen(sheen, wo, wi);
+  const float below = (1 - coat_reflectance(wo)) * (has_sheen(sheen) ? sheen.base_scale(wo, wi) : 1);
   BsdfValue value;
   const auto add = [&](Part part, const Rgb& f_cos, float pdf) {
     value.f_cos += f_cos;

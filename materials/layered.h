@@ -30,6 +30,9 @@ struct Layered {
   Ggx coat_ggx{1};
   Vec3f coat_normal{0, 0, 1};  // in the shading frame
 
+  /// Whether light may come from beyond the surface.
+  bool transmits() const { return transmission > 0 || !is_black(diffuse.transmitted); }
+
   BsdfValue eval(const Vec3f& wo, const Vec3f& wi) const;
   std::optional<BsdfSample> sample(const Vec3f& wo, float u1, const Vec2f& u2) const;
 

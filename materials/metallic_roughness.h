@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "materials/albedo.h"
+#include "materials/fresnel.h"
 #include "materials/ggx.h"
 #include "materials/lobe.h"
 #include "renderer/base/sampling.h"
@@ -52,14 +53,13 @@ struct MetallicRoughness {
     if (wi.z <= 0) return {};
     const Vec3f h = normalize(wo + wi);
     const Reflectance r = reflectance(wo.dot(h));
-    // D G / (4 cos cos), times cos wi.
-    float specular = ggx.d(h) * ggx.g2(wo, wi) / (4 * wo.z);
-    // A facet that rounding turns away is one that sampling does not find, but the base's samples might.
-    if (compensation && wo.dot(h) <= 0) specular = 0;
+    // Of the visible normals' density, G1 D wo.h / cos wo, divided by 4 wo.h, the wo.h cancel: at grazing
+    // angles, where rounding may turn a facet away, f and density stay in proportion.
+    const float facets = ggx.d(h) / (4 * wo.z);
     const float choice = specular_probability(wo);
     const Rgb rest = compensation ? many_facets(wo, wi) * wi.z : r.diffuse * (kInvPi * wi.z);
-    return {rest + r.specular * specular,
-            choice * ggx.pdf_visible_normal(wo, h) / (4 * wo.dot(h)) + (1 - choice) * kInvPi * wi.z};
+    return {rest + r.specular * (facets * ggx.g2(wo, wi)),
+            choice * facets * ggx.g1(wo) + (1 - choice) * kInvPi * wi.z};
   }
 
   std::optional<BsdfSample> sample(const Vec3f& wo, float u1, const Vec2f& u2) const {
@@ -86,11 +86,6 @@ struct MetallicRoughness {
     const Rgb metal = base + (Rgb(1, 1, 1) - base) * grazing;
     return {base * ((1 - metallic) * (1 - max_component(dielectric))),
             dielectric * (1 - metallic) + metal * metallic};
-  }
-
-  static float schlick_weight(float cosine) {
-    const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
-    return (m * m) * (m * m) * m;
   }
 
   /// f of all that a compensated lobe does not reflect by one facet.

@@ -8,8 +8,6 @@ draws docs/lights.svg. With --csv FILE nothing is run: the numbers are those of 
 """
 
 import argparse
-import csv
-import subprocess
 from pathlib import Path
 
 import matplotlib
@@ -17,28 +15,14 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+from measured import measure, read  # noqa: E402
+
 ROOT = Path(__file__).resolve().parent.parent
 CHOICES = {
     "uniform": ("all alike", "#c0392b", "o"),
     "power": ("by power", "#d98c00", "s"),
     "tree": ("by the tree", "#1f6fb2", "D"),
 }
-
-
-def measure(program: Path, size: int | None) -> Path:
-    out = program.with_name(program.name + ".csv")
-    with out.open("w") as file:
-        subprocess.run([str(program)] + ([str(size)] if size else []), check=True, stdout=file)
-    return out
-
-
-def read(path: Path) -> list[dict]:
-    with path.open() as file:
-        rows = list(csv.DictReader(file))
-    for row in rows:
-        for key in row.keys() - {"choice"}:
-            row[key] = float(row[key])
-    return rows
 
 
 def curve(rows: list[dict], lights: float, choice: str) -> list[dict]:
@@ -90,7 +74,7 @@ def main() -> None:
     parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/lights.svg")
     arguments = parser.parse_args()
-    rows = read(arguments.csv or measure(arguments.program, arguments.size))
+    rows = read(arguments.csv or measure(arguments.program, arguments.size), {"choice"})
     print_table(rows)
     draw(rows, arguments.out)
 

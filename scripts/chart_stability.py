@@ -8,8 +8,6 @@ and draws docs/stability.svg. With --csv FILE nothing is run: the numbers are th
 """
 
 import argparse
-import csv
-import subprocess
 from decimal import Decimal
 from pathlib import Path
 
@@ -17,6 +15,8 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
+
+from measured import measure, read  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 METHODS = {
@@ -27,22 +27,6 @@ METHODS = {
 }
 # The error bound that Parian reports is 12 unit roundoffs of the point's largest coordinate, which lies between these.
 BOUND = (12 * 2**-24 / 3**0.5, 12 * 2**-24)
-
-
-def measure(program: Path, rays: int | None) -> Path:
-    out = program.with_name(program.name + ".csv")
-    with out.open("w") as file:
-        subprocess.run([str(program)] + ([str(rays)] if rays else []), check=True, stdout=file)
-    return out
-
-
-def read(path: Path) -> list[dict]:
-    with path.open() as file:
-        rows = list(csv.DictReader(file))
-    for row in rows:
-        for key in row.keys() - {"shape", "method"}:
-            row[key] = float(row[key])
-    return rows
 
 
 def percent(share: float) -> str:
@@ -130,7 +114,7 @@ def main() -> None:
     parser.add_argument("--rays", type=int, help="for each solid and distance (default: the program's)")
     parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
     arguments = parser.parse_args()
-    rows = read(arguments.csv or measure(arguments.program, arguments.rays))
+    rows = read(arguments.csv or measure(arguments.program, arguments.rays), {"shape", "method"})
     print_tables(rows)
     draw(rows, ROOT / "docs/stability.svg")
 

@@ -286,6 +286,22 @@ TEST(Path, EmissionHasASide) {
     }
 }
 
+// The colour is kept: the largest component is brought down to the bound.
+TEST(Path, ClampBoundsWhatASampleBrings) {
+  Scene scene;
+  add_mesh(scene, make_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+           add_material(scene, make_emitter({3, 1.5f, 0.75f})));
+  add_probe(scene, {0, 0, 0}, {0, 0, 1}, 1, 0.5f);
+  for (const auto& [clamp, factor] :
+       {std::pair(1.0f, 1.0 / 3), {2.9f, 2.9 / 3}, {3.1f, 1.0}, {kInfinity, 1.0}}) {
+    IntegratorSettings settings;
+    settings.clamp = clamp;
+    const Picture p = render(scene, independent_settings(8, 8, 2), settings);
+    EXPECT_NEAR(mean_of(p, 0).value, 3 * factor, 1e-5) << clamp;
+    EXPECT_NEAR(mean_of(p, 2).value, 0.75 * factor, 1e-5) << clamp;
+  }
+}
+
 TEST(Path, UnlitShowsItsBaseColour) {
   Scene scene;
   Material m = make_lambert({0.25f, 0.5f, 0.75f});

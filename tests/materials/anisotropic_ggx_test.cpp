@@ -2,19 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
 
-constexpr float kBelowOne = 0x1.fffffep-1f;
 constexpr AnisotropicGgx kShapes[] = {{0.5f, 0.1f}, {0.05f, 0.3f}, {1, 0.2f}};
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 /// Cells that resolve facet normals along the smoother axis.
 SphereCells facet_cells(const AnisotropicGgx& ggx) {

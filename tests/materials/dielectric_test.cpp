@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
@@ -11,11 +11,6 @@ namespace {
 Dielectric make(float eta, float alpha, bool thin = false) {
   const float r = (eta - 1) / (eta + 1);
   return {eta, Rgb(1, 1, 1), {alpha}, thin, Rgb(r * r), 1};
-}
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
 /// Means of the weights of reflected and transmitted samples: the albedos of both sides.

@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
 
 const DiffuseTransmissionLobe kLeaf{{0.1f, 0.4f, 0.2f}, {0.3f, 0.5f, 0.1f}};
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 // Catches a missing 1/pi, a negative cosine, and the two sides exchanged.
 TEST(DiffuseTransmission, IsTheColourOfTheSideOverPiTimesTheCosine) {

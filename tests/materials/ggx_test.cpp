@@ -2,19 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
-
-constexpr double kPiD = std::numbers::pi;
-constexpr float kBelowOne = 0x1.fffffep-1f;
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 /// Cells that resolve facet normals: the inmost rings are much narrower than alpha.
 SphereCells facet_cells(float alpha) {

@@ -3,16 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "materials/metallic_roughness.h"
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 /// A dielectric of base colour .8 and roughness alpha, without any extension.
 Layered plain(float metallic, float alpha) {

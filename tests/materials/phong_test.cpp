@@ -2,19 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
-
-constexpr double kPiD = std::numbers::pi;
-constexpr float kBelowOne = 0x1.fffffep-1f;
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 Phong glossy(float exponent) { return {{0, 0, 0}, {1, 1, 1}, exponent}; }
 Phong mixed(float exponent) { return {{0.4f, 0.2f, 0.1f}, {0.3f, 0.5f, 0.6f}, exponent}; }
@@ -33,19 +25,6 @@ SphereCells lobe_cells(const Phong& lobe, const Vec3f& wo) {
 double albedo(const Phong& lobe, float cosine) {
   const Vec3f wo = at_cosine(cosine);
   return lobe_cells(lobe, wo).integral([&](const Vec3f& wi) { return lobe.eval(wo, wi).f_cos.y; });
-}
-
-/// The same by the weights of sample().
-Statistics sampled_albedo(const Phong& lobe, float cosine, int samples) {
-  const Vec3f wo = at_cosine(cosine);
-  TestRandom random(1);
-  Statistics s;
-  for (int i = 0; i < samples; ++i) {
-    const float u = random.next1();
-    const auto sample = lobe.sample(wo, u, random.next2());
-    s.add(sample ? sample->weight.y : 0);
-  }
-  return s;
 }
 
 // GT 9: 1 at normal incidence, less at an angle. Catches (n + 1) for (n + 2), and a specular lobe that lacks

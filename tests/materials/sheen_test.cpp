@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
-#include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
@@ -11,11 +11,6 @@ namespace {
 constexpr float kRoughnesses[] = {0.07f, 0.15f, 0.3f, 0.5f, 0.8f, 1.0f};
 
 Sheen white(float roughness) { return {{1, 1, 1}, std::max(Sheen::kMinAlpha, roughness * roughness)}; }
-
-Vec3f at_cosine(float cosine, float phi = 0.7f) {
-  const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
 
 /// Albedo from wo by quadrature, the horizon in detail: mu = t^3, half a turn.
 double albedo(const Sheen& sheen, float cosine) {

@@ -68,17 +68,6 @@ struct Room {
   }
 };
 
-Statistics irradiance(const LightTable& table, const Receiver& to, const Vec3f& n, int samples) {
-  Statistics s;
-  for (int i = 0; i < samples; ++i) {
-    Sampler sampler(SamplerKind::independent, 3, 0, 0, std::uint32_t(i));
-    const Vec2f u = sampler.next2();
-    const auto light = table.sample(to, u, sampler);
-    s.add(light ? light->radiance.x * std::max(0.0f, light->wi.dot(n)) / light->pdf : 0);
-  }
-  return s;
-}
-
 const Vec3f kUp(0, 1, 0);
 
 // With few and many numbers (kMaxLightsForOneNumber), with a normal and without.

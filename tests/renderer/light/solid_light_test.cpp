@@ -91,16 +91,6 @@ TEST(SolidLights, SamplesFollowTheirDensity) {
   }
 }
 
-/// Irradiance at p on a surface of normal n, where nothing hides anything.
-Statistics irradiance(const LitScene& lit, const Vec3f& p, const Vec3f& n, int samples) {
-  Statistics s;
-  for (int i = 0; i < samples; ++i) {
-    const auto light = sample(lit, p, std::uint32_t(i));
-    s.add(light ? light->radiance.x * std::max(0.0f, n.dot(light->wi)) / light->pdf : 0);
-  }
-  return s;
-}
-
 // A sphere of radius R and radiance 1 at distance d straight above: pi R^2 / d^2. At every size and distance.
 TEST(SolidLights, SpheresIrradiateAsTheyShould) {
   for (const double size : {1e-3, 1.0, 1e6})
