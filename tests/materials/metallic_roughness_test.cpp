@@ -55,6 +55,19 @@ TEST(MetallicRoughness, AlbedoOfAWhiteMetalIsThatOfGgx) {
   }
 }
 
+void expect_density(const MetallicRoughness& lobe, const Vec3f& wo, const SphereCells& cells, int samples,
+                    int tests) {
+  TestRandom random(std::uint32_t(lobe.ggx.alpha * 1000 + wo.z * 100));
+  const auto sample = [&]() -> std::optional<Vec3f> {
+    const float u = random.next1();
+    const auto s = lobe.sample(wo, u, random.next2());
+    return s ? std::optional(s->wi) : std::nullopt;
+  };
+  const auto pdf = [&](const Vec3f& wi) { return lobe.eval(wo, wi).pdf; };
+  EXPECT_TRUE(samples_directions(sample, pdf, cells, samples, tests))
+      << "alpha " << lobe.ggx.alpha << ", cosine " << wo.z << ", metallic " << lobe.metallic;
+}
+
 // Catches a pdf without the Jacobian 1 / (4 wo.h), a mixture that forgets a component, and a choice that is
 // not the probability in the pdf. The density integrates to the probability that sample() succeeds:
 // reflections below the horizon fail.
@@ -64,16 +77,7 @@ TEST(MetallicRoughness, SamplesWithItsDensity) {
     for (const float cosine : kCosines)
       for (const auto& lobe : {metal(alpha), dielectric(alpha), dielectric(alpha, {0.02f, 0.02f, 0.02f}),
                                MetallicRoughness{{0.9f, 0.5f, 0.1f}, 0.5f, {0.2f, 0.1f, 0}, 0.7f, {alpha}}}) {
-        const Vec3f wo = at_cosine(cosine);
-        TestRandom random(std::uint32_t(alpha * 1000 + cosine * 100));
-        const auto sample = [&]() -> std::optional<Vec3f> {
-          const float u = random.next1();
-          const auto s = lobe.sample(wo, u, random.next2());
-          return s ? std::optional(s->wi) : std::nullopt;
-        };
-        const auto pdf = [&](const Vec3f& wi) { return lobe.eval(wo, wi).pdf; };
-        EXPECT_TRUE(samples_directions(sample, pdf, lobe_cells(lobe, wo), 50000, 36))
-            << "alpha " << alpha << ", cosine " << cosine << ", metallic " << lobe.metallic;
+        expect_density(lobe, at_cosine(cosine), lobe_cells(lobe, at_cosine(cosine)), 50000, 36);
       }
 }
 
@@ -82,15 +86,7 @@ TEST(NightlyMetallicRoughness, SamplesWithItsDensityOverAllRoughnesses) {
     for (const float cosine : {0.99f, 0.8f, 0.4f, 0.1f, 0.02f})
       for (const auto& lobe : {metal(roughness * roughness), dielectric(roughness * roughness)}) {
         const Vec3f wo = at_cosine(cosine, 4);
-        TestRandom random(std::uint32_t(roughness * 1000 + cosine * 100));
-        const auto sample = [&]() -> std::optional<Vec3f> {
-          const float u = random.next1();
-          const auto s = lobe.sample(wo, u, random.next2());
-          return s ? std::optional(s->wi) : std::nullopt;
-        };
-        const auto pdf = [&](const Vec3f& wi) { return lobe.eval(wo, wi).pdf; };
-        EXPECT_TRUE(samples_directions(sample, pdf, lobe_cells(lobe, wo, 8), 1000000, 80))
-            << "roughness " << roughness << ", cosine " << cosine << ", metallic " << lobe.metallic;
+        expect_density(lobe, wo, lobe_cells(lobe, wo, 8), 1000000, 80);
       }
 }
 
@@ -166,9 +162,9 @@ TEST(MetallicRoughness, StaysFiniteForSmallAlphaAndGrazingAngles) {
           if (!s) continue;
           ASSERT_TRUE(is_finite(s->weight) && s->weight.x >= 0 && std::isfinite(s->pdf) && s->pdf > 0)
               << alpha << " at " << cosine;
-          if (lobe.metallic == 1) {
-            ASSERT_LE(s->weight.x, 1 + 1e-4f) << alpha << " at " << cosine;
-          }
+          // Of a component that is chosen with a tenth at least. Catches a density that is 0 where rounding
+          // turns a facet away, and f is not.
+          ASSERT_LE(s->weight.x, lobe.metallic == 1 ? 1 + 1e-4f : 11) << alpha << " at " << cosine;
           const BsdfValue value = lobe.eval(wo, random.next1() < 0.5f ? wo : at_cosine(random.next1(), 4));
           ASSERT_TRUE(is_finite(value.f_cos) && value.f_cos.x >= 0 && std::isfinite(value.pdf) &&
                       value.pdf >= 0);
@@ -268,16 +264,7 @@ TEST(CompensatedMetallicRoughness, SamplesWithItsDensity) {
   for (const float alpha : {1e-2f, 0.25f, 1.0f})
     for (const float cosine : {1.0f, 0.6f, 0.1f})
       for (const auto& lobe : {make_compensated(metal(alpha)), make_compensated(dielectric(alpha))}) {
-        const Vec3f wo = at_cosine(cosine);
-        TestRandom random(std::uint32_t(alpha * 1000 + cosine * 100));
-        const auto sample = [&]() -> std::optional<Vec3f> {
-          const float u = random.next1();
-          const auto s = lobe.sample(wo, u, random.next2());
-          return s ? std::optional(s->wi) : std::nullopt;
-        };
-        const auto pdf = [&](const Vec3f& wi) { return lobe.eval(wo, wi).pdf; };
-        EXPECT_TRUE(samples_directions(sample, pdf, lobe_cells(lobe, wo), 50000, 18))
-            << "alpha " << alpha << ", cosine " << cosine << ", metallic " << lobe.metallic;
+        expect_density(lobe, at_cosine(cosine), lobe_cells(lobe, at_cosine(cosine)), 50000, 18);
       }
 }
 
