@@ -44,9 +44,10 @@ Deviation deviation(int rings) {
   return d;
 }
 
-// From the triangle itself, and not from the curved surface, the light is below the horizon of whole triangles
-// beside the terminator: 1.5% of the picture is black that should not be with 6 rings (.4% with 12), and the
-// deviation is .051, .0175, .0032. What it costs instead is light on the average: .7%, -.3%, .1% become these.
+// From the triangle itself, and not from the curved surface, the light is below the horizon of whole
+// triangles beside the terminator: 1.5% of the picture is black that should not be with 6 rings (.4% with
+// 12), and the deviation is .051, .0175, .0032. What it costs instead is light on the average: .7%, -.3%, .1%
+// become these.
 TEST(Terminator, DoesNotFollowTheTriangles) {
   const struct {
     int rings;
