@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "materials/bsdf.h"
 #include "renderer/session/integrator.h"
 
 namespace parian {
@@ -16,6 +17,7 @@ enum class Strategy : std::uint8_t { mis, light, bsdf };
 
 struct IntegratorSettings {
   Strategy strategy = Strategy::mis;
+  Microfacets microfacets = Microfacets::compensated;
   int max_depth = 100;           // scattering events of a path at most
   float clamp = kInfinity;       // radiance of a path at most, by its largest component; biased where finite
   float occlusion_distance = 0;  // ao: how far an occluder counts; 0: any distance

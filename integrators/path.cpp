@@ -90,7 +90,7 @@ class Tracer {
 
     // Scatter: light sampled directly, then a direction to go on.
     const float eta = boundary ? relative_ior(path, *boundary) : 1;
-    const Bsdf bsdf = make_bsdf(context_.scene, surface, eta);
+    const Bsdf bsdf = make_bsdf(context_.scene, surface, settings_.microfacets, eta);
     path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
                  bsdf.transmits() ? Vec3f(0) : surface.frame.z};
     if (!context_.lights.empty())
@@ -183,7 +183,7 @@ class Tracer {
     if (path.pdf != kInfinity && cosine != 0)
       competing = path.hit().is_solid() ? context_.lights.pdf_solid(path.hit(), path.from, cosine)
                                         : context_.lights.pdf_triangle(path.hit(), path.from, cosine);
-    return eval_emission(context_.scene, material, surface.uvs) * hit_weight(path, competing);
+    return eval_emission(context_.scene, material, surface.uvs, cosine) * hit_weight(path, competing);
   }
 
   /// Samples a point of a light; whether it is seen is for later.

@@ -20,12 +20,14 @@ namespace albedo_tables {
 // The same in scripts/make_albedo_tables.py.
 inline constexpr int kGgxRows = 32, kGgxColumns = 48;
 inline constexpr float kQLow = -1, kQHigh = 1.4f;
+inline constexpr int kInterfaceLayers = 9, kInterfaceRows = 16, kInterfaceColumns = 32;
 inline constexpr int kSheenRows = 40, kSheenColumns = 48;
 
 struct GgxNode {
   std::uint16_t loss, q;
 };
 extern const GgxNode kGgx[kGgxRows * kGgxColumns];
+extern const std::uint16_t kInterface[2 * kInterfaceLayers * kInterfaceRows * kInterfaceColumns];
 extern const std::uint16_t kSheen[kSheenRows * kSheenColumns];
 
 /// A place between two of `nodes` that are even in [0, 1].
@@ -76,6 +78,37 @@ struct GgxAlbedoRow {
 
 /// Directional albedo of GGX; for more than one direction, make a GgxAlbedoRow.
 inline GgxAlbedo ggx_albedo(float mu, float alpha) { return GgxAlbedoRow::make(alpha).at(mu); }
+
+/// What facets between dielectrics lose of all that they reflect and refract by exact Fresnel reflectance, in
+/// single scattering with height-correlated masking: as a function of roughness and index. Made once for a
+/// surface.
+class InterfaceAlbedoRow {
+ public:
+  /// alpha in [1e-4, 1]. eta: index of the far side over that of the near side; beyond [1/3, 3], and where it
+  /// is within 1% of 1, the nearest in the table is taken.
+  static InterfaceAlbedoRow make(float alpha, float eta);
+
+  /// The share that is lost at mu in [0, 1]; off by .01 at most, .002 on average.
+  float loss(float mu) const {
+    using namespace albedo_tables;
+    const float t = mu * (1 + k_) / (mu + k_);
+    const Cell column = cell(above_ ? std::sqrt(t) : t, kInterfaceColumns);
+    const auto at = [&](const std::uint16_t* n) {
+      return float(n[0]) + (float(n[1]) - float(n[0])) * column.fraction;
+    };
+    constexpr int kLayer = kInterfaceRows * kInterfaceColumns;
+    const std::uint16_t* const n = first_ + column.i;
+    const float low = at(n) + (at(n + kInterfaceColumns) - at(n)) * row_fraction_;
+    const float high = at(n + kLayer) + (at(n + kLayer + kInterfaceColumns) - at(n + kLayer)) * row_fraction_;
+    return (low + (high - low) * layer_fraction_) * (1 / 65535.0f);
+  }
+
+ private:
+  InterfaceAlbedoRow() = default;
+  const std::uint16_t* first_;
+  float layer_fraction_, row_fraction_, k_;
+  bool above_;
+};
 
 /// Directional albedo of the Charlie sheen of materials/sheen.h with colour 1; above 1 at grazing angles for
 /// small alpha, as the model is. alpha is clamped to what Sheen takes. Off by less than 2e-3 for mu above

@@ -165,21 +165,26 @@ Layered make_layered(const Scene& scene, const Surface& s, const Rgb& base, floa
 /// The lobe of a material that has an extension: the smallest that holds what it has. (Cold: in its place in
 /// make_bsdf() it would be felt by those that have none.)
 [[gnu::cold, gnu::noinline]] Bsdf::AnyLobe make_extended(const Scene& scene, const Surface& s,
-                                                         const Rgb& base, float eta) {
+                                                         const Rgb& base, Microfacets microfacets,
+                                                         float eta) {
+  const auto finished = [&](const auto& lobe) -> Bsdf::AnyLobe {
+    if (microfacets == Microfacets::single) return lobe;
+    return make_compensated(lobe);
+  };
   const Material& m = *s.part->material;
   if (m.phong) return Phong{m.phong->diffuse, m.phong->specular, m.phong->exponent};
   const float roughness = eval_roughness(scene, s);
-  if (m.conductor) return Conductor{m.conductor->eta, m.conductor->k, {to_mirror_alpha(roughness)}};
+  if (m.conductor) return finished(Conductor{m.conductor->eta, m.conductor->k, {to_mirror_alpha(roughness)}});
   const float metallic = scaled(scene, s, m.metallic_roughness_texture, 2, m.metallic);
   const float transmission =
       m.transmission ? scaled(scene, s, m.transmission->texture, 0, m.transmission->factor) : 0;
   if (!is_layered(m) && transmission == 1 && metallic == 0)
-    return make_dielectric(scene, s, base, to_mirror_alpha(roughness), eta);
+    return finished(make_dielectric(scene, s, base, to_mirror_alpha(roughness), eta));
   if (!is_layered(m) && transmission == 0) {
     const Coat coat = eval_coat(scene, s);
-    return MetallicRoughness{base, metallic, coat.f0, coat.f90, Ggx{to_alpha(roughness)}};
+    return finished(MetallicRoughness{base, metallic, coat.f0, coat.f90, Ggx{to_alpha(roughness)}});
   }
-  return make_layered(scene, s, base, metallic, roughness, transmission, eta);
+  return finished(make_layered(scene, s, base, metallic, roughness, transmission, eta));
 }
 
 }  // namespace
@@ -187,19 +192,30 @@ Layered make_layered(const Scene& scene, const Surface& s, const Rgb& base, floa
 Rgb eval_base_color(const Scene& scene, const Surface& s) { return base_color_at(scene, s); }
 
 BsdfValue Bsdf::eval_lobe(const Vec3f& wi) const {
-  return std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); }, lobe_);
+  const float lit = surface_.bumpy ? bump_shadowing(surface_, wi) : 1;
+  if (lit == 0) return {};
+  BsdfValue value =
+      std::visit([&](const auto& lobe) { return lobe.eval(to_local(surface_.wo), to_local(wi)); }, lobe_);
+  value.f_cos *= lit;
+  return value;
+}
+
+bool Bsdf::shadow(BsdfSample& s) const {
+  const float lit = bump_shadowing(surface_, s.wi);
+  s.weight *= lit;
+  return lit > 0;
 }
 
 std::optional<BsdfSample> Bsdf::sample_lobe(float u1, const Vec2f& u2) const {
   return std::visit([&](const auto& lobe) { return lobe.sample(to_local(surface_.wo), u1, u2); }, lobe_);
 }
 
-Bsdf make_bsdf(const Scene& scene, const Surface& s, float eta) {
+Bsdf make_bsdf(const Scene& scene, const Surface& s, Microfacets microfacets, float eta) {
   const Material& m = *s.part->material;
   const Rgb base = base_color_at(scene, s);
   if (m.specular == 0 && m.metallic == 0 && !s.part->extended) return Bsdf(s, Lambert{base});
   if (s.part->extended) [[unlikely]]
-    return Bsdf(s, make_extended(scene, s, base, eta));
+    return Bsdf(s, make_extended(scene, s, base, microfacets, eta));
 
   float metallic = m.metallic, roughness = m.roughness;
   if (m.metallic_roughness_texture) {
@@ -208,7 +224,8 @@ Bsdf make_bsdf(const Scene& scene, const Surface& s, float eta) {
     metallic *= t.z;
   }
   const Coat coat = eval_coat(scene, s);
-  return Bsdf(s, MetallicRoughness{base, metallic, coat.f0, coat.f90, Ggx{to_alpha(roughness)}});
+  const MetallicRoughness lobe{base, metallic, coat.f0, coat.f90, Ggx{to_alpha(roughness)}};
+  return Bsdf(s, microfacets == Microfacets::single ? lobe : make_compensated(lobe));
 }
 
 Rgb estimate_albedo(const Scene& scene, const Surface& s) {

@@ -15,8 +15,9 @@
 namespace parian {
 
 /// Directions are unit, in world space, away from the surface. A direction that shading and geometric normal
-/// put on different sides is black: light would leak through the surface. Radiance that is transmitted is
-/// basic radiance (dielectric.h).
+/// put on different sides is black: light would leak through the surface. Where a normal map pretends bumps
+/// they shadow each other (bump_shadowing()), at wi alone: there the BSDF is not reciprocal. Radiance that is
+/// transmitted is basic radiance (dielectric.h).
 class Bsdf {
  public:
   using AnyLobe = std::variant<Lambert, MetallicRoughness, Phong, Conductor, Dielectric, Layered>;
@@ -31,8 +32,8 @@ class Bsdf {
     if (leaks(wi)) return {};
     // The cheapest lobe in place: beside it the choice between the others, and the coordinates that it does
     // not look at, would be felt.
-    if (const auto* lambert = std::get_if<Lambert>(&lobe_))
-      return lambert->eval(to_local(surface_.wo), to_local(wi));
+    const auto* lambert = std::get_if<Lambert>(&lobe_);
+    if (lambert && !surface_.bumpy) return lambert->eval(to_local(surface_.wo), to_local(wi));
     return eval_lobe(wi);
   }
 
@@ -42,7 +43,7 @@ class Bsdf {
         lambert ? lambert->sample(to_local(surface_.wo), u1, u2) : sample_lobe(u1, u2);
     if (!s) return s;
     s->wi = surface_.frame.to_world(s->wi);
-    if (leaks(s->wi)) return std::nullopt;
+    if (leaks(s->wi) || (surface_.bumpy && !shadow(*s))) return std::nullopt;
     return s;
   }
 
@@ -51,6 +52,7 @@ class Bsdf {
 
   /// Whether light may come from beyond the surface.
   bool transmits() const {
+    if (std::holds_alternative<Lambert>(lobe_)) return false;  // the most frequent first
     if (const auto* layered = std::get_if<Layered>(&lobe_)) return layered->transmits();
     return std::holds_alternative<Dielectric>(lobe_);
   }
@@ -60,13 +62,13 @@ class Bsdf {
 
  private:
   BsdfValue eval_lobe(const Vec3f& wi) const;
+  bool shadow(BsdfSample& s) const;  // by bumps; false where nothing is left
   std::optional<BsdfSample> sample_lobe(float u1, const Vec2f& u2) const;  // in the shading frame
   Vec3f to_local(const Vec3f& w) const { return surface_.frame.to_local(w); }
   /// Whether shading and geometric normal disagree about the side that w is on.
   bool leaks(const Vec3f& w) const {
-    // What leaves from the curved surface has its horizon (which a normal map is not).
-    if (surface_.lifted && w.dot(surface_.frame.z) > 0)
-      return surface_.part->needs_tangent && (surface_.front ? w : -w).dot(surface_.smooth_normal) <= 0;
+    // What leaves from the curved surface has its horizon.
+    if (surface_.lifted && w.dot(surface_.frame.z) > 0) return false;
     if (!beyond(w)) return transmits() && w.dot(surface_.frame.z) < 0;
     return !transmits() || w.dot(surface_.frame.z) >= 0;
   }
@@ -75,9 +77,13 @@ class Bsdf {
   AnyLobe lobe_;
 };
 
+/// Whether light that meets more than one facet of a rough surface is lost, as in glTF's formulas, or comes
+/// back (FacetBounces, Dielectric).
+enum class Microfacets : std::uint8_t { compensated, single };
+
 /// The BSDF at a surface, its textures looked up. `eta`: where the surface bounds a medium, the index of
 /// refraction beyond it over that on the viewer's side.
-Bsdf make_bsdf(const Scene& scene, const Surface& surface, float eta = 1);
+Bsdf make_bsdf(const Scene& scene, const Surface& surface, Microfacets microfacets, float eta = 1);
 
 /// The base colour at a surface, texture and vertex colour included.
 Rgb eval_base_color(const Scene& scene, const Surface& surface);

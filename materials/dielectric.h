@@ -1,6 +1,9 @@
 /// The interface between two dielectrics, smooth or rough, and the thin wall of one.
 #pragma once
 
+#include <variant>
+
+#include "materials/albedo.h"
 #include "materials/fresnel.h"
 #include "materials/ggx.h"
 #include "materials/lobe.h"
@@ -11,6 +14,10 @@ namespace parian {
 /// Models for Refraction through Rough Surfaces), on a mirror where ggx.alpha is 0. What is not reflected is
 /// transmitted, times `tint`: refracted, or, through a thin wall, straight on, spread as the reflection is
 /// (KHR_materials_transmission; physically a wall reflects between its faces too: 2 F / (1 + F)).
+///
+/// Facets lose what meets a second one. With `losses` (make_compensated()) all that leaves towards wo is
+/// scaled so that nothing is lost (as Turquin 2019, Practical multiple scattering compensation for microfacet
+/// models, for reflection); the lobe is then not reciprocal.
 ///
 /// Transmitted radiance is the basic radiance L / n^2, which an interface keeps: who wants radiance itself
 /// multiplies by (n on wo's side / n on wi's side)^2.
@@ -23,6 +30,7 @@ struct Dielectric {
   // (KHR_materials_specular otherwise).
   Rgb f0;
   float f90;
+  std::variant<std::monostate, InterfaceAlbedoRow, GgxAlbedoRow> losses = {};
 
   /// Whether its directions are found by sampling alone.
   bool is_smooth() const { return ggx.alpha == 0 || (eta == 1 && !thin); }
@@ -36,7 +44,7 @@ struct Dielectric {
     const Vec3f h = normalize(wo + wi);
     const Split split = split_at(wo.dot(h));
     const float facets = ggx.d(h) / (4 * wo.z);
-    return {split.reflected * (ggx.g2(wo, wi) * facets), ggx.g1(wo) * facets * split.choice};
+    return {split.reflected * (ggx.g2(wo, wi) * facets * scale(wo)), ggx.g1(wo) * facets * split.choice};
   }
 
   std::optional<BsdfSample> sample(const Vec3f& wo, float u1, const Vec2f& u2) const {
@@ -56,17 +64,18 @@ struct Dielectric {
   }
 
   /// Transmission alone, of a rough interface: what eval() gives for wi below the surface, the density of
-  /// sample_transmitted(), and the probability with which sample() reflects.
+  /// sample_transmitted(), the probability with which sample() reflects, and the cosine between wo and facet.
   struct Transmitted {
     Rgb f_cos{0, 0, 0};
-    float pdf = 0, choice = 0;
+    float pdf = 0, choice = 0, cosine = 0;
   };
   Transmitted eval_transmitted(const Vec3f& wo, const Vec3f& wi) const {
     if (thin) {
       const Vec3f up(wi.x, wi.y, -wi.z), h = normalize(wo + up);
       const Split split = split_at(wo.dot(h));
       const float facets = ggx.d(h) / (4 * wo.z);
-      return {split.transmitted * (ggx.g2(wo, up) * facets), ggx.g1(wo) * facets, split.choice};
+      return {split.transmitted * (ggx.g2(wo, up) * facets * scale(wo)), ggx.g1(wo) * facets, split.choice,
+              wo.dot(h)};
     }
     Vec3f h = wo + wi * eta;
     if (h.z < 0) h = -h;
@@ -78,10 +87,19 @@ struct Dielectric {
     // D dh/dwi, over cos wo (eq. 17).
     const float facets = ggx.d(h) * cos_o * eta * eta * cos_i / (along * along * wo.z);
     if (!(facets < kInfinity)) return {};
-    return {split.transmitted * (ggx.g2(wo, wi) * facets), ggx.g1(wo) * facets, split.choice};
+    return {split.transmitted * (ggx.g2(wo, wi) * facets * scale(wo)), ggx.g1(wo) * facets, split.choice,
+            cos_o};
   }
   std::optional<Vec3f> sample_transmitted(const Vec3f& wo, const Vec2f& u) const {
     return transmit(wo, ggx.sample_visible_normal(wo, u));
+  }
+
+  /// What makes up for the losses of light that leaves towards wo; 1 without compensation.
+  float scale(const Vec3f& wo) const {
+    if (const auto* refracting = std::get_if<InterfaceAlbedoRow>(&losses))
+      return 1 / (1 - refracting->loss(wo.z));
+    if (const auto* thin_wall = std::get_if<GgxAlbedoRow>(&losses)) return 1 / (1 - thin_wall->at(wo.z).loss);
+    return 1;
   }
 
   /// Reflectance of a facet at an angle of that cosine; exactly 1 at total reflection, whatever f0 and f90.
@@ -119,5 +137,18 @@ struct Dielectric {
   }
 };
 static_assert(Lobe<Dielectric>);
+
+/// The same interface with its multiple scattering; a smooth one has none.
+inline Dielectric make_compensated(Dielectric lobe) {
+  if (lobe.is_smooth()) return lobe;
+  // A thin wall transmits as it reflects, so that it loses what facets lose that reflect all; and those of an
+  // index beyond all glass do that.
+  constexpr float kMostIndex = 10;
+  if (lobe.thin || lobe.eta > kMostIndex || lobe.eta < 1 / kMostIndex)
+    lobe.losses = GgxAlbedoRow::make(lobe.ggx.alpha);
+  else
+    lobe.losses = InterfaceAlbedoRow::make(lobe.ggx.alpha, lobe.eta);
+  return lobe;
+}
 
 }  // namespace parian

@@ -22,8 +22,7 @@ struct Sheen {
   /// exact to 5e-5 in single precision from here on.
   static constexpr float kMinAlpha = 0.0049f;
 
-  /// Density of facet normals, Charlie. The sine is not from 1 - cos^2: its large power shows
-  /// every rounding.
+  /// Density of facet normals, Charlie: a power of the sine.
   float d(const Vec3f& h) const {
     const float exponent = 1 / alpha;
     return (2 + exponent) * std::pow(h.x * h.x + h.y * h.y, 0.5f * exponent) * (0.5f * kInvPi);

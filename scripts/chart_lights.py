@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Measures what ways to choose among many lights cost and leave of noise; prints a table and draws docs/lights.svg.
+"""Measures what ways to choose among many lights leave of noise for their time; prints tables, draws docs/lights.svg.
 
-usage: chart_lights.py [--size N] [--csv FILE] [--out FILE] [PROGRAM]
+usage: chart_lights.py [--csv FILE] [--out FILE] [PROGRAM]
 
-Runs PROGRAM (default build/release/many_lights), writes what it prints to PROGRAM.csv, prints a table in Markdown, and
-draws docs/lights.svg. With --csv FILE nothing is run: the numbers are those of FILE. Needs matplotlib.
+Renders the rooms of make_lights.py with PROGRAM (default build/release/parian): 10 to 10,000 lamps, 1 to 256 samples
+per pixel, each choice of lights; on one thread. The error is against two references of 512 samples per pixel by the
+tree, which are kept in build/charts; their noise does not count. Writes the numbers to build/charts/lights.csv, prints
+tables in Markdown, and draws docs/lights.svg. With --csv FILE nothing is rendered: the numbers are those of FILE. Needs
+numpy and matplotlib.
 """
 
 import argparse
+import math
 from pathlib import Path
 
 import matplotlib
@@ -15,14 +19,34 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from measured import measure, read  # noqa: E402
+from make_lights import room  # noqa: E402
+from measured import CHARTS, ROOT, percent, read, references, relative_rmse, render, write  # noqa: E402
 
-ROOT = Path(__file__).resolve().parent.parent
+COUNTS = (10, 100, 1000, 10000)
+SIZE = ["--size", "128x96"]
+SAMPLES = [2**i for i in range(9)]
 CHOICES = {
-    "uniform": ("all alike", "#c0392b", "o"),
+    "uniform": ("any alike", "#c0392b", "o"),
     "power": ("by power", "#d98c00", "s"),
     "tree": ("by the tree", "#1f6fb2", "D"),
 }
+
+
+def measure(program: Path) -> Path:
+    """The choices alternate, so that a slow minute of the machine meets all of them."""
+    CHARTS.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for count in COUNTS:
+        scene = CHARTS / f"many-lights-{count}.gltf"
+        room(count).write(CHARTS, scene.stem)
+        truth = references(program, scene, [*SIZE, "--spp", "512"])
+        for spp in SAMPLES:
+            for choice in CHOICES:
+                options = [*SIZE, "--spp", str(spp), "--light-choice", choice, "--threads", "1"]
+                picture, stats = render(program, scene, options, CHARTS / "lights")
+                row = {"lights": count, "choice": choice, "spp": spp, "cpu_seconds": stats["render_cpu_seconds"]}
+                rows.append(row | {"relative_rmse": relative_rmse(picture, truth)})
+    return write(CHARTS / "lights.csv", rows)
 
 
 def curve(rows: list[dict], lights: float, choice: str) -> list[dict]:
@@ -33,20 +57,40 @@ def counts(rows: list[dict]) -> list[float]:
     return list(dict.fromkeys(row["lights"] for row in rows))
 
 
-def print_table(rows: list[dict]) -> None:
-    """The error with the most samples, and the CPU time that all points of the floor took together."""
-    print("| lights | " + " | ".join(f"{name}: error, CPU s" for name, _, _ in CHOICES.values()) + " |")
+def seconds_to(points: list[dict], error: float) -> float:
+    """The CPU time to an error, on the line between the points around it, both axes logarithmic."""
+    for before, after in zip(points, points[1:]):
+        if after["relative_rmse"] <= error < before["relative_rmse"]:
+            step = math.log(before["relative_rmse"] / error)
+            share = step / math.log(before["relative_rmse"] / after["relative_rmse"])
+            return before["cpu_seconds"] * (after["cpu_seconds"] / before["cpu_seconds"]) ** share
+    return math.nan
+
+
+def print_tables(rows: list[dict]) -> None:
+    print("| lights | error | " + " | ".join(f"{name}: CPU s" for name, _, _ in CHOICES.values()) + " |")
+    print("|---" * (2 + len(CHOICES)) + "|")
+    for lights in counts(rows):
+        # The least error that every choice reaches.
+        error = max(curve(rows, lights, choice)[-1]["relative_rmse"] for choice in CHOICES)
+        cells = " | ".join(f"{seconds_to(curve(rows, lights, choice), error):.2g}" for choice in CHOICES)
+        print(f"| {lights:,.0f} | {percent(error)} | {cells} |")
+    samples = sorted({row["spp"] for row in rows})
+    few, some, many = samples[0], samples[len(samples) // 2], samples[-1]
+    names = " | ".join(name for name, _, _ in CHOICES.values())
+    print(f"\n| lights | error with {few:.0f}, {some:.0f}, {many:.0f} samples: {names} |")
     print("|---" * (1 + len(CHOICES)) + "|")
     for lights in counts(rows):
-        last = [curve(rows, lights, choice)[-1] for choice in CHOICES]
-        cells = " | ".join(f"{100 * row['relative_rmse']:.2g}%, {row['cpu_seconds']:.2g}" for row in last)
+        curves = [curve(rows, lights, choice) for choice in CHOICES]
+        errors = [[points[i]["relative_rmse"] for i in (0, len(points) // 2, -1)] for points in curves]
+        cells = " | ".join(", ".join(percent(error) for error in three) for three in errors)
         print(f"| {lights:,.0f} | {cells} |")
 
 
 def draw(rows: list[dict], out: Path) -> None:
     plt.rcParams.update({"font.size": 8, "svg.fonttype": "path", "svg.hashsalt": "lights"})
     columns = counts(rows)
-    figure, grid = plt.subplots(1, len(columns), figsize=(10, 3.6), sharey=True, squeeze=False)
+    figure, grid = plt.subplots(1, len(columns), figsize=(10, 3.4), sharex=True, sharey=True, squeeze=False)
     for axes, lights in zip(grid[0], columns):
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -57,7 +101,8 @@ def draw(rows: list[dict], out: Path) -> None:
             points = curve(rows, lights, choice)
             x, y = [p["cpu_seconds"] for p in points], [p["relative_rmse"] for p in points]
             axes.plot(x, y, marker=marker, markersize=4, color=color, label=label, linewidth=1.4)
-        axes.set_yticks([0.01, 0.1, 1], ["1%", "10%", "100%"])
+        axes.set_xticks([0.1, 1, 10], ["0.1", "1", "10"])
+        axes.set_yticks([0.03, 0.1, 0.3, 1, 3, 10], ["3%", "10%", "30%", "100%", "300%", "1000%"])
         axes.set_title(f"{lights:,.0f} lights", fontsize=10)
         axes.set_xlabel("CPU seconds")
     grid[0][0].set_ylabel("error (RMS, relative)")
@@ -69,13 +114,12 @@ def draw(rows: list[dict], out: Path) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/many_lights")
-    parser.add_argument("--size", type=int, help="points along each side of the floor (default: the program's)")
+    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/parian")
     parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/lights.svg")
     arguments = parser.parse_args()
-    rows = read(arguments.csv or measure(arguments.program, arguments.size), {"choice"})
-    print_table(rows)
+    rows = read(arguments.csv or measure(arguments.program), {"choice"})
+    print_tables(rows)
     draw(rows, arguments.out)
 
 

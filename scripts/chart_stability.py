@@ -16,7 +16,7 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from measured import measure, read  # noqa: E402
+from measured import measure, percent, read  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 METHODS = {
@@ -27,11 +27,6 @@ METHODS = {
 }
 # The error bound that Parian reports is 12 unit roundoffs of the point's largest coordinate, which lies between these.
 BOUND = (12 * 2**-24 / 3**0.5, 12 * 2**-24)
-
-
-def percent(share: float) -> str:
-    """Two digits, and no power of ten."""
-    return f"{Decimal(f'{100 * share:.1e}').normalize():f}%" if share else "0"
 
 
 def length(value: float) -> str:

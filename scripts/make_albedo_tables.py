@@ -18,6 +18,11 @@ The nodes of L and Q are not samples but the bilinear function nearest to the tr
 averages 2 integral of L mu dmu (divided by alpha) and of B are those of the tables as they are read, so that what is
 lost on average is what the furnace loses.
 
+A rough interface between dielectrics, reflection and refraction together: what is lost of it, 1 - E(mu), for an index
+eta of the far side over the near side above 1 and below it: two tables, for there is a step between them. Their layers
+are even in the logarithm of x = |eta - 1| / (eta + 1), of .005 to .5 (eta 3), the rows in sqrt(alpha), the columns in
+t, or, above 1, in its square root.
+
 Charlie sheen (Estevez and Kulla 2017): E(mu), the rows even in alpha^(1/4), the columns in mu^(1/4), down to
 mu = 1e-4: the fitted masking is finite at the horizon, so that E grows without bound there.
 """
@@ -33,6 +38,8 @@ import numpy as np
 GGX_ROWS, GGX_COLUMNS, GGX_AVERAGES = 32, 48, 125
 R_LOW = 0.01
 LOSS_SCALE, Q_LOW, Q_HIGH, LOSS_AVERAGE_SCALE, B_AVERAGE_SCALE = 1.0, -1.0, 1.4, 1.0, 0.05
+INTERFACE_LAYERS, INTERFACE_ROWS, INTERFACE_COLUMNS = 9, 16, 32
+INTERFACE_R_LOW, INTERFACE_X_LOW, INTERFACE_X_HIGH = 0.1, 0.005, 0.5
 SHEEN_ROWS, SHEEN_COLUMNS = 40, 48
 SHEEN_U_LOW, SHEEN_T_LOW, SHEEN_SCALE = 0.07**0.5, 0.1, 3.0
 
@@ -43,8 +50,8 @@ def gauss(n):
     return 0.5 * (x + 1), 0.5 * w
 
 
-def ggx(mu, alpha, n=64):
-    """L and B; see above."""
+def visible_facets(mu, alpha, n):
+    """Facets seen from mu: cosine of wo to each, z of each, and the weights of a quadrature."""
     phi = np.pi * (np.arange(n) + 0.5) / n  # half a turn: the other half mirrors it
     x, w = gauss(4 * n)  # a step where reflections leave for below the horizon
     v, w = 1 - (1 - x) ** 2, 2 * w * (1 - x)  # denser where facets are steep
@@ -57,14 +64,33 @@ def ggx(mu, alpha, n=64):
     cz = np.maximum(z + wz, 1e-300)
     scale = 1 / np.sqrt(cx * cx + cy * cy + cz * cz)
     hx, hz = cx * scale, cz * scale
-    cosine = sine * hx + mu * hz
-    out = 2 * cosine * hz - mu
-    up = np.maximum(out, 1e-12)
+    return np.clip(sine * hx + mu * hz, 0, 1), hz, w / n
+
+
+def masked(mu, out, alpha):
+    """1 - G2 / G1 of light that leaves at |cosine| out, which is lost where out <= 0."""
     smith = lambda c: 0.5 * (np.sqrt(1 + alpha * alpha * (1 - c * c) / (c * c)) - 1)
-    whole = 1 + smith(mu) + smith(up)
-    loss = np.where(out > 0, smith(up) / whole, 1)
-    weight = np.clip(1 - cosine, 0, 1) ** 5
-    return (loss.mean(0) * w).sum(), (((1 - loss) * weight).mean(0) * w).sum()
+    up = np.clip(out, 1e-12, 1)
+    return np.where(out > 0, smith(up) / (1 + smith(mu) + smith(up)), 1)
+
+
+def ggx(mu, alpha, n=64):
+    """L and B; see above."""
+    cosine, hz, w = visible_facets(mu, alpha, n)
+    loss = masked(mu, 2 * cosine * hz - mu, alpha)
+    weight = (1 - cosine) ** 5
+    return (loss.sum(0) * w).sum(), (((1 - loss) * weight).sum(0) * w).sum()
+
+
+def interface(mu, alpha, eta, n=32):
+    """What is lost of reflection and refraction; Fresnel's equations."""
+    c, hz, w = visible_facets(mu, alpha, n)
+    q2 = eta * eta - 1 + c * c
+    q, p = np.sqrt(np.maximum(q2, 0)), eta * eta * c
+    with np.errstate(invalid="ignore"):
+        f = np.where(q2 > 0, 0.5 * (((c - q) / (c + q)) ** 2 + ((p - q) / (p + q)) ** 2), 1)
+    reflected, refracted = masked(mu, 2 * c * hz - mu, alpha), masked(mu, (mu - (c - q) * hz) / eta, alpha)
+    return ((f * reflected + (1 - f) * refracted).sum(0) * w).sum()
 
 
 def sheen(mu, alpha, n=128):
@@ -103,27 +129,34 @@ def cell(x, nodes):
     return i, y - i
 
 
-def corners(u, v, rows, columns):
-    """The four nodes around (u, v), as indices into a table, and their bilinear weights."""
-    (i, fi), (j, fj) = cell(u, rows), cell(v, columns)
-    index = np.stack([i * columns + j, i * columns + j + 1, (i + 1) * columns + j, (i + 1) * columns + j + 1])
-    return index, np.stack([(1 - fi) * (1 - fj), (1 - fi) * fj, fi * (1 - fj), fi * fj])
+def corners(coordinates, sizes):
+    """The nodes around a place in a table of any dimension, as indices into it, and their multilinear weights."""
+    index, weights = [0], [1.0]
+    for coordinate, size in zip(coordinates, sizes):
+        i, fraction = cell(coordinate, size)
+        index = [at * size + i + step for at in index for step in (0, 1)]
+        weights = [w * share for w in weights for share in (1 - fraction, fraction)]
+    return np.stack(index), np.stack(weights)
 
 
 def fit(index, weights, nodes, truth, importance):
-    """Values at the nodes that interpolate truth best: least squares, the largest errors weighed more and more."""
-    emphasis = np.array(importance)
+    """Values at the nodes that interpolate truth best: least squares, the largest errors weighed more and more. By
+    conjugate gradients."""
+    emphasis, values = np.array(importance), np.zeros(nodes)
+    scatter = lambda x: np.bincount(index.ravel(), (weights * x).ravel(), nodes)
     for _ in range(6):
-        matrix = np.zeros(nodes * nodes)
-        right = np.zeros(nodes)
-        for p in range(4):
-            right += np.bincount(index[p], emphasis**2 * weights[p] * truth, nodes)
-            for q in range(4):
-                matrix += np.bincount(
-                    index[p] * nodes + index[q], emphasis**2 * weights[p] * weights[q], nodes * nodes
-                )
-        matrix = matrix.reshape(nodes, nodes) + 1e-9 * np.eye(nodes)
-        values = np.linalg.solve(matrix, right)
+        multiply = lambda x: scatter(emphasis**2 * (x[index] * weights).sum(0)) + 1e-9 * x
+        diagonal = np.bincount(index.ravel(), (weights**2 * emphasis**2).ravel(), nodes) + 1e-9
+        rest = scatter(emphasis**2 * truth) - multiply(values)
+        step, size = np.zeros(nodes), np.inf
+        for _ in range(3000):
+            before, size = size, rest @ (rest / diagonal)
+            if size < 1e-18:
+                break
+            step = rest / diagonal + size / before * step
+            image = multiply(step)
+            length = size / (step @ image)
+            values, rest = values + length * step, rest - length * image
         error = np.abs((values[index] * weights).sum(0) - truth) * importance
         emphasis = emphasis * (1 + error / error.max())
     return values
@@ -135,6 +168,10 @@ def quantised(values, low, high):
 
 def ggx_point(point):
     return ggx(*point)
+
+
+def interface_point(point):
+    return interface(*point)
 
 
 def sheen_point(point):
@@ -152,7 +189,7 @@ def make_ggx(pool):
     loss, b = np.array(pool.map(ggx_point, points, chunksize=32)).T
     mu, alpha = np.array(points).T
     r = np.sqrt(alpha)
-    index, weights = corners((r - R_LOW) / (1 - R_LOW), column(mu, alpha), GGX_ROWS, GGX_COLUMNS)
+    index, weights = corners(((r - R_LOW) / (1 - R_LOW), column(mu, alpha)), (GGX_ROWS, GGX_COLUMNS))
     nodes = GGX_ROWS * GGX_COLUMNS
     s = np.clip(b / (1 - loss), 0, 1)
     # What is lost matters by its share, too: the importance of small losses is up to 4 times larger.
@@ -164,7 +201,7 @@ def make_ggx(pool):
 
     def read(mu, alpha):
         index, weights = corners(
-            (np.sqrt(alpha) - R_LOW) / (1 - R_LOW), column(mu, alpha), GGX_ROWS, GGX_COLUMNS
+            ((np.sqrt(alpha) - R_LOW) / (1 - R_LOW), column(mu, alpha)), (GGX_ROWS, GGX_COLUMNS)
         )
         loss, q = [(table[:, k][index] * weights).sum(0) / 65535 for k in (0, 1)]
         loss = loss * LOSS_SCALE
@@ -188,18 +225,37 @@ def make_ggx(pool):
                             quantised(averages[:, 1], 0, B_AVERAGE_SCALE)], axis=-1)  # fmt: skip
 
 
+def make_interface(pool, above):
+    """The table of eta > 1, or that of eta < 1."""
+    points, places = [], []
+    for layer in np.linspace(0, 1, 2 * (INTERFACE_LAYERS - 1) + 1):
+        x = INTERFACE_X_LOW * (INTERFACE_X_HIGH / INTERFACE_X_LOW) ** layer
+        eta = (1 + x) / (1 - x)
+        for row in np.linspace(0, 1, 2 * (INTERFACE_ROWS - 1) + 1):
+            alpha = (INTERFACE_R_LOW + (1 - INTERFACE_R_LOW) * row) ** 2
+            k = warp_constant(alpha)
+            t = np.linspace(0, 1, 2 * (INTERFACE_COLUMNS - 1) + 1)[1:]
+            t = np.concatenate([t[0] * np.array([0.05, 0.4]), t])
+            points += [(m, alpha, eta if above else 1 / eta) for m in t * k / (1 + k - t)]
+            places += [(layer, row, c) for c in (np.sqrt(t) if above else t)]
+    loss = np.array(pool.map(interface_point, points, chunksize=64))
+    sizes = INTERFACE_LAYERS, INTERFACE_ROWS, INTERFACE_COLUMNS
+    index, weights = corners(np.array(places).T, sizes)
+    table = quantised(fit(index, weights, int(np.prod(sizes)), loss, 1 / np.sqrt(0.2 + loss)), 0, 1)
+    error = np.abs((table[index] * weights).sum(0) / 65535 - loss)
+    print(f"interface, eta {'above' if above else 'below'} 1: off by {error.max():.1e}, "
+          f"{(error**2).mean()**.5:.1e} on average")  # fmt: skip
+    return table
+
+
 def make_sheen(pool):
     t = np.linspace(SHEEN_T_LOW, 1, 3 * (SHEEN_COLUMNS - 1) + 1)
     rows = np.linspace(SHEEN_U_LOW, 1, 3 * (SHEEN_ROWS - 1) + 1)
     points = [(x**4, u**4) for u in rows for x in t]
     e = np.array(pool.map(sheen_point, points, chunksize=32))
     mu, alpha = np.array(points).T
-    index, weights = corners(
-        (alpha**0.25 - SHEEN_U_LOW) / (1 - SHEEN_U_LOW),
-        (mu**0.25 - SHEEN_T_LOW) / (1 - SHEEN_T_LOW),
-        SHEEN_ROWS,
-        SHEEN_COLUMNS,
-    )
+    place = (alpha**0.25 - SHEEN_U_LOW) / (1 - SHEEN_U_LOW), (mu**0.25 - SHEEN_T_LOW) / (1 - SHEEN_T_LOW)
+    index, weights = corners(place, (SHEEN_ROWS, SHEEN_COLUMNS))
     table = quantised(
         fit(index, weights, SHEEN_ROWS * SHEEN_COLUMNS, e, 1 / (0.1 + e)), 0, SHEEN_SCALE
     )
@@ -222,11 +278,13 @@ def array(declaration, values):
 def main(path):
     with multiprocessing.Pool() as pool:
         table, averages = make_ggx(pool)
+        interfaces = np.concatenate([make_interface(pool, above) for above in (False, True)])
         sheen_table = make_sheen(pool)
     with open(path, "w", encoding="ascii") as file:
         file.write("// Written by scripts/make_albedo_tables.py, which says what is in here.\n")
         file.write(array("const GgxNode kGgx[kGgxRows * kGgxColumns]", table))
         file.write(array("constexpr GgxAverage kGgxAverages[kGgxAverageRows]", averages))
+        file.write(array("const std::uint16_t kInterface[2 * kInterfaceLayers * kInterfaceRows * kInterfaceColumns]", interfaces))
         file.write(array("const std::uint16_t kSheen[kSheenRows * kSheenColumns]", sheen_table))
 
 

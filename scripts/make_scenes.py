@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from gltf_builder import Gltf, to_json
-from scene_recipes import cabinet, classics, furnaces, garden, lens, shapes, single_lights, still_life, sunlight
+from scene_recipes import cabinet, classics, furnaces, garden, glass, lens, shapes, single_lights, still_life, sunlight
+from scene_recipes import many_lights, materials, surfaces
 
 SCENES = {
     "cornell-box": classics.cornell_box,
@@ -24,6 +25,7 @@ SCENES = {
     "textured": still_life.textured,
     "instances": garden.instances,
     "shapes-still-life": shapes.shapes_still_life,
+    "glass-still-life": glass.glass_still_life,
     "furnace-sphere": furnaces.furnace_sphere,
     "furnace-box": furnaces.furnace_box,
     "environment-gradient": furnaces.environment_gradient,
@@ -34,6 +36,25 @@ SCENES = {
     "light-disk": single_lights.light_disk,
     "shapes-furnace": shapes.shapes_furnace,
     "shapes-scales": shapes.shapes_scales,
+    "specular": surfaces.specular,
+    "clearcoat": surfaces.clearcoat,
+    "sheen": surfaces.sheen,
+    "anisotropy": surfaces.anisotropy,
+    "iridescence": surfaces.iridescence,
+    "diffuse-transmission": surfaces.diffuse_transmission,
+    "conductor": surfaces.conductor,
+    "phong": surfaces.phong,
+    "surfaces-furnace": surfaces.surfaces_furnace,
+    "terminator": surfaces.terminator,
+    "many-lights": many_lights.many_lights,
+    "materials": materials.materials,
+    "glass-panes": glass.glass_panes,
+    "glass-slabs": glass.glass_slabs,
+    "glass-nested": glass.glass_nested,
+    "glass-furnace": glass.glass_furnace,
+    "glass-balls": glass.glass_balls,
+    "glass-inside": glass.glass_inside,
+    "glass-prism": glass.glass_prism,
 }
 
 

@@ -47,6 +47,10 @@ double lap(Clock::time_point& start) {
 
 const std::map<std::string, Strategy> kStrategies{
     {"mis", Strategy::mis}, {"light", Strategy::light}, {"bsdf", Strategy::bsdf}};
+const std::map<std::string, LightChoice> kLightChoices{
+    {"uniform", LightChoice::uniform}, {"power", LightChoice::power}, {"tree", LightChoice::tree}};
+const std::map<std::string, Microfacets> kMicrofacets{{"compensated", Microfacets::compensated},
+                                                      {"single", Microfacets::single}};
 const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol},
                                                    {"independent", SamplerKind::independent}};
 const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris},
@@ -169,10 +173,11 @@ std::string checkpoint_key(const RenderOptions& o) {
   const RenderSettings& s = o.settings;
   return fmt::format(
       "scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
-      "depth {} clamp {} layers {}{}{}",
+      "lights {} ggx {} depth {} clamp {} layers {}{}{}",
       hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
-      int(o.integrator_settings.strategy), o.integrator_settings.max_depth, o.integrator_settings.clamp,
-      s.layers.variance, s.layers.sample_count, s.layers.features);
+      int(o.integrator_settings.strategy), int(s.light_choice), int(o.integrator_settings.microfacets),
+      o.integrator_settings.max_depth, o.integrator_settings.clamp, s.layers.variance, s.layers.sample_count,
+      s.layers.features);
 }
 
 /// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
@@ -284,6 +289,10 @@ Command add_render_command(CLI::App& app) {
       ->type_name("NAME");
   add_choice(c, "--strategy", o.integrator_settings.strategy, kStrategies,
              "path: how direct light is found [mis]");
+  add_choice(c, "--light-choice", o.settings.light_choice, kLightChoices,
+             "path: which light is sampled: any alike, by power, by what it may send to the place [tree]");
+  add_choice(c, "--ggx", o.integrator_settings.microfacets, kMicrofacets,
+             "path: rough surfaces scatter light as often as it meets facets, or once [compensated]");
   c.add_option("--max-depth", o.integrator_settings.max_depth,
                "path: scattering events of a path at most [100]")
       ->check(CLI::Range(0, 1 << 20).description(""));

@@ -104,7 +104,7 @@ float LightTable::mean_emission(const Material& material, const UvsAt& uvs_at) c
     mean *= 0.1f;
     for (int i = 0; i < 16; ++i) {
       const Vec2f u((float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i))));
-      mean += eval_emission(*scene_, material, uvs_at(u)) * (0.9f / 16);
+      mean += eval_emission(*scene_, material, uvs_at(u), 1) * (0.9f / 16);
     }
   }
   return luminance(mean) * (material.double_sided ? 2 : 1);
@@ -254,10 +254,11 @@ std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e
       area_sample(p, point, e.ng, e.offset, e.area, probability, material.double_sided);
   if (!s) return s;
   s->radiance = material.emission;
-  if (material.emission_texture) {
+  if (material.emission_varies()) {
     const Primitive& primitive = *e.part->primitive;
     s->radiance = eval_emission(*scene_, material,
-                                interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y));
+                                interpolate_uvs(primitive, primitive.triangles[e.triangle], b.x, b.y),
+                                std::abs(s->wi.dot(e.ng)));
   }
   return s;
 }
@@ -267,28 +268,30 @@ std::optional<LightSample> LightTable::sample_solid(const PlacedSolid& placed, f
   const Material& material = *world_->solid_parts[placed.part].material;
   std::optional<LightSample> s;
   SurfaceSample point;  // in the space of the solid
+  Vec3f normal;
   if (placed.is_round()) {
     const Vec3f center = placed.to_world.origin;
     const auto seen = sample_directions(center, placed.round_radius, p, u);
     if (!seen || !usable(seen->pdf)) return std::nullopt;
-    const float cosine = -seen->w.dot(seen->normal);
+    normal = seen->normal;
+    const float cosine = -seen->w.dot(normal);
     if (!material.double_sided && cosine <= 0) return std::nullopt;
-    const Vec3f from_center = seen->normal * placed.round_radius;
-    point = {placed.round_point(seen->normal), Face::side};
+    const Vec3f from_center = normal * placed.round_radius;
+    point = {placed.round_point(normal), Face::side};
     const float offset = std::copysign(solid_offset(placed.to_world, point.p), cosine);
     s = LightSample{seen->w, Rgb(0, 0, 0), probability * seen->pdf,
-                    false,   false,        center + from_center + seen->normal * offset};
+                    false,   false,        center + from_center + normal * offset};
   } else {
     point = sample_surface(placed.solid, u);
-    const Vec3f normal = placed.to_world.normal(surface_point(placed.solid, point.p, point.face).normal);
+    normal = placed.to_world.normal(surface_point(placed.solid, point.p, point.face).normal);
     const float stretch = normal.length();
-    s = area_sample(p, placed.to_world.point(point.p), normal / stretch,
-                    solid_offset(placed.to_world, point.p), area(placed.solid) * stretch, probability,
-                    material.double_sided);
+    normal /= stretch;
+    s = area_sample(p, placed.to_world.point(point.p), normal, solid_offset(placed.to_world, point.p),
+                    area(placed.solid) * stretch, probability, material.double_sided);
   }
   if (s) s->radiance = material.emission;
-  if (s && material.emission_texture)
-    s->radiance = eval_emission(*scene_, material, solid_uvs(placed, point));
+  if (s && material.emission_varies())
+    s->radiance = eval_emission(*scene_, material, solid_uvs(placed, point), std::abs(s->wi.dot(normal)));
   return s;
 }
 

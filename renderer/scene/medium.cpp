@@ -5,12 +5,20 @@
 
 namespace parian {
 
+namespace {
+
+// Nothing is left after 1e-28 m, and, being finite, all is left after 0.
+constexpr float kMostAbsorption = 1e30f;
+
+}  // namespace
+
 Medium make_medium(const Material& material) {
   const Volume& volume = *material.volume;
   Rgb absorption(0, 0, 0);
   if (volume.attenuation_distance > 0)
     for (int k = 0; k < 3; ++k)
-      absorption[k] = -std::log(std::max(volume.attenuation_color[k], 1e-30f)) / volume.attenuation_distance;
+      absorption[k] =
+          std::min(-std::log(volume.attenuation_color[k]) / volume.attenuation_distance, kMostAbsorption);
   return {material.ior, material.dispersion, absorption, material.priority};
 }
 

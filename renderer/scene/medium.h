@@ -18,7 +18,7 @@ struct Medium {
 };
 
 /// That of a material with has_interior(). KHR_materials_volume: absorption = -ln(color) / distance; a colour
-/// of 0 absorbs everything within a path that single precision can hold.
+/// of 0 lets nothing through.
 Medium make_medium(const Material& material);
 
 /// Index of refraction at a wavelength in nanometres; that of the d line where wavelength is 0. Cauchy's

@@ -168,6 +168,8 @@ struct Material {
   bool has_interior() const {
     return volume && volume->thickness > 0 && (transmission || diffuse_transmission);
   }
+  /// Whether what it emits depends on place or direction.
+  bool emission_varies() const { return emission_texture || clearcoat; }
   bool operator==(const Material&) const = default;
 };
 

@@ -64,6 +64,8 @@ Vec3f map_normal(const Scene& scene, Surface& s, const Vec3f& n, const Tangent& 
   s.tangent = t.direction;
   s.bitangent_sign = t.sign;
   if (!material.normal_texture) return n;
+  // Where the normal is bent instead, what it mirrors must not lose its light.
+  s.bumpy = !s.part->bends;
   return eval_normal_map(scene, s, material.normal_texture, material.normal_scale);
 }
 
@@ -138,6 +140,7 @@ Surface make_mesh_surface(const Scene& scene, const World& world, const Hit& hit
   if (part.needs_uv) s.uvs = interpolate_uvs(primitive, t, hit.u, hit.v);
   s.color = part.needs_color ? interpolate(primitive.colors, t, hit.u, hit.v) : Vec4f(1);
   s.lifted = false;
+  s.bumpy = false;
 
   Vec3f ns = s.ng;
   if (!primitive.normals.empty()) {
@@ -166,6 +169,7 @@ Surface make_solid_surface(const Scene& scene, const World& world, const Hit& hi
   s.uvs = {point.uv, point.uv};
   s.color = Vec4f(1);
   s.lifted = false;
+  s.bumpy = false;
   Vec3f ns = s.ng;
   if (s.part->needs_tangent) {
     const float sign = m.determinant() < 0 ? -1.0f : 1.0f;
@@ -193,6 +197,15 @@ Vec3f eval_normal_map(const Scene& scene, const Surface& s, const TextureRef& ma
   return mapped.dot(mapped) > 0 ? mapped.normalized() : n;
 }
 
+float bump_shadowing(const Surface& s, const Vec3f& w) {
+  const bool below = w.dot(s.frame.z) < 0;
+  const float cosine = w.dot(s.smooth_normal) * (s.front == below ? -1.0f : 1.0f);
+  if (cosine <= 0) return 0;
+  const float deviation = s.frame.z.dot(s.smooth_normal), cos2 = deviation * deviation;
+  const float alpha2 = std::clamp((1 - cos2) / (8 * cos2), 0.0f, 1.0f);
+  return 2 * cosine / (cosine + std::sqrt(cosine * cosine + alpha2 * (1 - cosine * cosine)));
+}
+
 Vec3f hit_normal(const World& world, const Hit& hit) {
   if (hit.is_solid()) {
     const PlacedSolid& placed = world.solids[hit.solid()];
@@ -212,10 +225,20 @@ float solid_offset(const Affine& to_world, const Vec3f& point) {
   return error_gamma(12) * max_component(sums);
 }
 
-Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs) {
-  if (!material.emission_texture) return material.emission;
-  const Vec4f texel = eval_texture(scene, material.emission_texture, uvs, ColorSpace::srgb);
-  return material.emission * Rgb(texel.x, texel.y, texel.z);
+Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs,
+                  float cosine) {
+  Rgb emission = material.emission;
+  if (material.emission_texture) {
+    const Vec4f texel = eval_texture(scene, material.emission_texture, uvs, ColorSpace::srgb);
+    emission *= Rgb(texel.x, texel.y, texel.z);
+  }
+  if (material.clearcoat) {
+    float coat = material.clearcoat->factor;
+    if (const TextureRef& texture = material.clearcoat->texture)
+      coat *= eval_texture(scene, texture, uvs, ColorSpace::linear).x;
+    emission *= 1 - coat * (0.04f + 0.96f * std::pow(1 - std::min(1.0f, cosine), 5.0f));
+  }
+  return emission;
 }
 
 std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle& triangle, float u, float v) {

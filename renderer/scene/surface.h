@@ -33,6 +33,8 @@ struct Surface {
   // Where normals are interpolated and pretend a curved surface above the triangle, by more than rounding:
   // from p to that, on the side of wo. Else not lifted, and not set.
   bool lifted;
+  // A normal map pretends bumps here, which take light from each other: bump_shadowing().
+  bool bumpy;
   Vec3f lift;
   // Only where part->needs_tangent: the shading normal without its map, on the front side; the tangent, of
   // any length and zero where there is none, and the side of the bitangent, its sign against smooth_normal x
@@ -55,6 +57,15 @@ inline Surface make_surface(const Scene& scene, const World& world, const Hit& h
 /// The normal that a normal map gives (glTF 2.0, 3.9.3), unit, on the front side; smooth_normal where there
 /// is no tangent. The part needs a tangent.
 Vec3f eval_normal_map(const Scene& scene, const Surface& s, const TextureRef& map, float scale);
+
+/// The share of the light along w, unit and away from the surface, that bumps leave to the one whose normal
+/// is the shading normal. The surface is bumpy. With theta the angle of w, and d that of the shading normal,
+/// from smooth_normal it is Smith's shadowing of GGX slopes,
+///   2 / (1 + sqrt(1 + alpha^2 tan^2 theta)), alpha^2 = min(1, tan^2 d / 8)
+/// (Estevez, Lecocq and Stein 2019, A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+/// Problem, Ray Tracing Gems, chapter 12). 0 where smooth_normal puts w on another side than the shading
+/// normal does.
+float bump_shadowing(const Surface& s, const Vec3f& w);
 
 /// The node that shows what was hit, which is not nothing.
 int hit_node(const World& world, const Hit& hit);
@@ -89,8 +100,11 @@ inline float plane_offset(float extent) { return error_gamma(16) * extent; }
 /// rounding: below 10 units of roundoff of the numbers that are added up, in any direction.
 float solid_offset(const Affine& to_world, const Vec3f& point);
 
-/// Emitted radiance of a material at uvs, on a side from which it emits.
-Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs);
+/// Emitted radiance of a material at uvs, on a side from which it emits, in a direction whose cosine to the
+/// normal of the shape is given. A clear coat lies above what glows and takes what it reflects at that angle
+/// (KHR_materials_clearcoat, emission).
+Rgb eval_emission(const Scene& scene, const Material& material, const std::array<Vec2f, 2>& uvs,
+                  float cosine);
 
 /// Interpolated texture coordinates of a point of a triangle; zero where the primitive has none.
 std::array<Vec2f, 2> interpolate_uvs(const Primitive& primitive, const Triangle& triangle, float u, float v);

@@ -63,7 +63,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
 Session::~Session() { cancel(); }
 
 void Session::build_lights() {
-  lights_ = std::make_unique<LightTable>(*scene_, *world_);
+  lights_ = std::make_unique<LightTable>(*scene_, *world_, settings_.light_choice);
   ++stats_.light_builds;
 }
 

@@ -25,6 +25,7 @@ struct RenderSettings {
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
   AccelSettings accel;
+  LightChoice light_choice = LightChoice::tree;
   int tile_size = 16;  // pixels; rounded up to whole blocks of 4
 };
 

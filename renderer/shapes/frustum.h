@@ -15,7 +15,7 @@ struct Frustum {
 
 /// The crossings of the line o + t d, d not zero and of any length; nothing where it misses or touches. The
 /// part of the line between the caps' planes is cut by the part inside the cone, whose quadratic is set up at
-/// the point of closest approach to the centre, so that its numbers are of the size of the solid (GT 41, 42).
+/// the point of closest approach to the centre, so that its numbers are of the size of the solid.
 std::optional<Chord> intersect(const Frustum& f, const Vec3d& o, const Vec3d& d);
 
 /// The point of that face next to p, or one of them.

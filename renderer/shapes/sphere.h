@@ -49,7 +49,7 @@ struct SphereDirection {
 };
 
 /// A direction from p to the sphere of that centre and radius, uniform in the cone of directions that meet it
-/// (Wang 1992, Physically Correct Direct Lighting; the cone's size by GT 47's s^2 / (1 + c), so that it
+/// (Wang 1992, Physically Correct Direct Lighting; the cone's size by s^2 / (1 + c), so that it
 /// neither cancels far away nor turns to NaN). From inside, and so near to the surface that rounding decides
 /// what is inside, uniform over all directions; nothing where such a direction misses.
 std::optional<SphereDirection> sample_directions(const Vec3f& center, float radius, const Vec3f& p,

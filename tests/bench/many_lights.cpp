@@ -1,14 +1,11 @@
-/// How the choice of lights scales: the error of sampled irradiance on the floor of a room lit by many small
-/// triangles, nothing hidden, against CPU time, for each way to choose; and what a sample and a density cost.
+/// What a sample of a light and a density cost by their number, in a room lit by many small triangles, and
+/// what the table takes to build. What the choices leave of noise is in scripts/chart_lights.py.
 ///
-/// usage: many_lights [SIZE]
-/// Estimates irradiance at SIZE x SIZE points (default 64) with 1 to 64 samples each, for 10, 100 and 10,000
-/// lights; the truth is Lambert's formula, added up over all lights. Writes CSV to standard output: lights,
-/// choice, spp, cpu_seconds (of this thread), relative_rmse (root mean square error over the mean). Writes to
-/// standard error what building takes and nanoseconds of a sample and of a density, up to a million lights.
+/// usage: many_lights
+/// Writes to standard output, for 2 to a million lights chosen by power and by the tree: seconds to build the
+/// table; bytes and depth of the tree; nanoseconds of a sample and of a density.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "renderer/light/light_table.h"
@@ -19,7 +16,6 @@ namespace {
 using namespace parian;
 
 constexpr float kSide = 10, kHeight = 3;
-constexpr const char* kNames[] = {"uniform", "power", "tree"};
 
 /// A room with a floor and two walls that do not shine, and `count` triangles that do: half of them on a grid
 /// below the ceiling, the others anywhere and any way round. Their radiances differ by up to a thousand.
@@ -81,80 +77,7 @@ Scene make_room(int count) {
   return scene;
 }
 
-/// Irradiance from a triangle of radiance 1 that lies above the receiver's plane (Lambert 1760): half of the
-/// sum, over its edges, of the angle that each fills times the cosine of its plane.
-double lambert(const Vec3f (&vertices)[3], const Vec3f& p, const Vec3d& n) {
-  Vec3d to[3];
-  for (int i = 0; i < 3; ++i) to[i] = (Vec3d(vertices[i]) - Vec3d(p)).normalized();
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3d across = to[i].cross(to[(i + 1) % 3]);
-    const double sine = across.length();
-    if (sine > 0) sum += std::atan2(sine, to[i].dot(to[(i + 1) % 3])) * across.dot(n) / sine;
-  }
-  // Seen from its front its corners run clockwise against n.
-  return std::max(0.0, -0.5 * sum);
-}
-
-Receiver floor_point(int x, int y, int size) {
-  const float step = kSide / float(size);
-  return {{(float(x) + 0.5f) * step, 0, (float(y) + 0.5f) * step}, {0, 1, 0}};
-}
-
-std::vector<double> true_irradiance(const Scene& scene, int size) {
-  std::vector<double> truth;
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      double sum = 0;
-      for (const Primitive& primitive : scene.meshes[0].primitives) {
-        const double radiance = scene.materials[std::size_t(primitive.material)].emission.x;
-        if (radiance == 0) continue;
-        for (const Triangle& t : primitive.triangles) {
-          const Vec3f vertices[3] = {primitive.positions[t[0]], primitive.positions[t[1]],
-                                     primitive.positions[t[2]]};
-          sum += radiance * lambert(vertices, floor_point(x, y, size).p, {0, 1, 0});
-        }
-      }
-      truth.push_back(sum);
-    }
-  return truth;
-}
-
-double sampled_irradiance(const LightTable& table, const Receiver& to, int x, int y, int spp) {
-  double sum = 0;
-  for (int i = 0; i < spp; ++i) {
-    Sampler sampler(SamplerKind::sobol, 1, x, y, std::uint32_t(i));
-    const Vec2f u = sampler.next2();
-    if (const auto s = table.sample(to, u, sampler))
-      sum += s->radiance.x * std::max(0.0f, s->wi.dot(to.n)) / s->pdf;
-  }
-  return sum / spp;
-}
-
-void measure_error(int lights, int size) {
-  const Scene scene = make_room(lights);
-  const World world = make_world(scene);
-  const std::vector<double> truth = true_irradiance(scene, size);
-  double mean = 0;
-  for (const double value : truth) mean += value / double(truth.size());
-  for (const LightChoice choice : {LightChoice::uniform, LightChoice::power, LightChoice::tree}) {
-    const LightTable table(scene, world, choice);
-    for (int spp = 1; spp <= 64; spp *= 2) {
-      double squares = 0;
-      const double start = seconds(CLOCK_THREAD_CPUTIME_ID);
-      for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-          const double error = sampled_irradiance(table, floor_point(x, y, size), x, y, spp) -
-                               truth[std::size_t(y) * std::size_t(size) + std::size_t(x)];
-          squares += error * error / double(truth.size());
-        }
-      fmt::print("{},{},{},{:.5f},{:.5f}\n", lights, kNames[int(choice)], spp,
-                 seconds(CLOCK_THREAD_CPUTIME_ID) - start, std::sqrt(squares) / mean);
-    }
-  }
-}
-
-void measure_time(int lights) {
+void measure(int lights) {
   const Scene scene = make_room(lights);
   const World world = make_world(scene);
   std::mt19937 engine(3);
@@ -199,25 +122,17 @@ void measure_time(int lights) {
     }
     const double to_ns = 1e9 / double(receivers.size());
     fmt::print(
-        stderr,
         "{} lights, {}: built in {:.3f} s, tree {:.1f} MB, depth {}; sample {:.0f} ns, density {:.0f} ns "
         "(mean {:.3g})\n",
-        table.size(), kNames[int(choice)], built, double(table.chooser().tree().bytes()) / 1e6,
-        table.chooser().tree().depth(), median(sample_times) * to_ns, median(pdf_times) * to_ns,
-        sum / (7 * double(receivers.size())));
+        table.size(), choice == LightChoice::tree ? "tree" : "power", built,
+        double(table.chooser().tree().bytes()) / 1e6, table.chooser().tree().depth(),
+        median(sample_times) * to_ns, median(pdf_times) * to_ns, sum / (7 * double(receivers.size())));
   }
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const int size = argc > 1 ? std::atoi(argv[1]) : 64;
-  if (size < 1) {
-    fmt::print(stderr, "usage: {} [SIZE]\n", argv[0]);
-    return 2;
-  }
-  for (const int lights : {2, 4, 6, 10, 100, 10000, 1000000}) measure_time(lights);
-  fmt::print("lights,choice,spp,cpu_seconds,relative_rmse\n");
-  for (const int lights : {10, 100, 10000}) measure_error(lights, size);
+int main() {
+  for (const int lights : {2, 4, 6, 10, 100, 10000, 1000000}) measure(lights);
   return 0;
 }

@@ -1,4 +1,4 @@
-// GT 58: what the comparison of pictures sees, and what a comparison pixel by pixel does not.
+// What the comparison of pictures sees, and what a comparison pixel by pixel does not.
 #include "tests/support/block_test.h"
 
 #include <random>

@@ -1,4 +1,4 @@
-// Cameras through the whole pipeline: what lands where on the film (GT 13 to 15), and the layers and
+// Cameras through the whole pipeline: what lands where on the film, and the layers and
 // occlusion of what they see.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Blur measure_blur(const Picture& p, double half, double radius) {
   return {moment / sum, inner / sum};
 }
 
-// GT 14: the circle of confusion on the plane of focus is A |z - zf| / z. GT 13: a quarter of it lies within
+// The circle of confusion on the plane of focus is A |z - zf| / z. A quarter of it lies within
 // half its radius. Caught: focus at a radial distance, radius for diameter, r = R u in place of R sqrt(u).
 TEST(Lens, CircleOfConfusion) {
   for (const float z : {1.0f, 1.5f, 4.0f, 2000.0f}) {
@@ -72,7 +72,7 @@ TEST(Lens, ThePlaneOfFocusIsSharp) {
   }
 }
 
-// GT 14: no cos^4, no vignetting. Caught: a lens weighted by its cosine.
+// No cos^4, no vignetting. Caught: a lens weighted by its cosine.
 TEST(Lens, AConstantEnvironmentStaysConstant) {
   Scene scene;
   scene.environment.radiance = Rgb(1, 2, 3);
@@ -83,7 +83,7 @@ TEST(Lens, AConstantEnvironmentStaysConstant) {
       for (int k = 0; k < 3; ++k) ASSERT_EQ(p.at(x, y)[k], float(k + 1));
 }
 
-// GT 15: the image of a sphere of radius 1 at distance 3. Caught: radius / distance gives .577 of the
+// The image of a sphere of radius 1 at distance 3. Caught: radius / distance gives .577 of the
 // half-image.
 TEST(Perspective, SphereOnTheAxis) {
   Scene scene;

@@ -32,7 +32,7 @@ Scene furnace(const Primitive& primitive, const Rgb& albedo) {
   return scene;
 }
 
-// GT 1 for albedo 1: each path brings exactly 1, so each pixel must be 1. Caught: self-hits, flipped normals.
+// Albedo 1: each path brings exactly 1, so each pixel must be 1. Caught: self-hits, flipped normals.
 TEST(Furnace, EveryPixelOfAWhiteConvexBodyIsOne) {
   for (const NamedShape& shape : convex_shapes())
     for (const Strategy strategy : {Strategy::bsdf, Strategy::mis}) {
@@ -52,7 +52,7 @@ TEST(Furnace, EveryPixelOfAWhiteConvexBodyIsOne) {
     }
 }
 
-// GT 1 for other albedos: radiance is albedo times 1. Caught: 1/pi left out or doubled, a uniform density
+// Other albedos: radiance is albedo times 1. Caught: 1/pi left out or doubled, a uniform density
 // claimed for the cosine's, light that leaks through the body.
 TEST(Furnace, ConvexBodiesReflectTheirAlbedo) {
   for (const NamedShape& shape : convex_shapes())
@@ -79,7 +79,7 @@ Scene closed_emitter(const Primitive& outside, const Transform& transform = {}) 
   return scene;
 }
 
-// GT 2. Caught: missing caps, self-hits and leaks darken it; roulette without its weight gives 4.3 for 10.
+// Caught: missing caps, self-hits and leaks darken it; roulette without its weight gives 4.3 for 10.
 TEST(Furnace, ClosedEmittersSumTheSeries) {
   for (const NamedShape& shape : convex_shapes()) {
     const Picture p =
@@ -102,7 +102,7 @@ TEST(Furnace, ClosedEmittersSumTheSeriesWithLightSampling) {
   }
 }
 
-// GT 46. Caught: the sign of the determinant not taken out of normals, so that a mirrored emitter shines
+// Caught: the sign of the determinant not taken out of normals, so that a mirrored emitter shines
 // outwards.
 TEST(Furnace, MirroredAndStretchedEmittersShineInwards) {
   Transform t;
@@ -125,7 +125,7 @@ TEST(NightlyFurnace, ClosedEmittersSumTheSeriesToHalfAPercent) {
     }
 }
 
-// GT 3: N scattering events leave out the fraction albedo^(N + 1). Caught: a depth that counts one more or
+// N scattering events leave out the fraction albedo^(N + 1). Caught: a depth that counts one more or
 // less.
 TEST(Furnace, DepthCutsTheSeries) {
   const Scene scene = closed_emitter(make_box({-0.7f, -0.7f, -0.7f}, {0.7f, 0.7f, 0.7f}));
@@ -138,7 +138,7 @@ TEST(Furnace, DepthCutsTheSeries) {
   }
 }
 
-// GT 4: Caught: survivors not weighted give 4.28.
+// Caught: survivors not weighted give 4.28.
 TEST(Furnace, RouletteIsUnbiased) {
   Scene scene = closed_emitter(make_box({-0.7f, -0.7f, -0.7f}, {0.7f, 0.7f, 0.7f}));
   scene.materials[0].base_color = {0.9f, 0.9f, 0.9f};
@@ -146,7 +146,7 @@ TEST(Furnace, RouletteIsUnbiased) {
   EXPECT_TRUE(mean_is(mean_of(p, 1), 10, 0.01));
 }
 
-// GT 5: the indirect light in a sphere is the same everywhere, wherever in it the lamp is. Direct light alone
+// The indirect light in a sphere is the same everywhere, wherever in it the lamp is. Direct light alone
 // comes from a render of one scattering event.
 TEST(Furnace, IntegratingSphereSpreadsIndirectLight) {
   Scene scene;
@@ -167,7 +167,7 @@ TEST(Furnace, IntegratingSphereSpreadsIndirectLight) {
   }
 }
 
-/// GT 6: form factor of a sphere at distance h radii, its centre at angle t from the normal.
+/// Form factor of a sphere at distance h radii, its centre at angle t from the normal.
 double sphere_form_factor(double h, double t) {
   if (std::cos(t) * h >= 1) return std::cos(t) / (h * h);
   if (std::cos(t) * h <= -1) return 0;
@@ -195,7 +195,7 @@ void expect_sphere_light(const SphereCase& c, std::uint32_t spp, double toleranc
       << c.h << ", " << c.degrees;
 }
 
-// GT 6, also for spheres half below the horizon. Caught: cos / h^2 there, which is off by 9% or all of it;
+// Also for spheres half below the horizon. Caught: cos / h^2 there, which is off by 9% or all of it;
 // the light's area taken in its own space.
 TEST(DirectLight, SphereLights) {
   EXPECT_NEAR(sphere_form_factor(2, std::numbers::pi * 75 / 180), 0.070410, 1e-6);
@@ -215,7 +215,7 @@ TEST(NightlyDirectLight, SphereLights) {
     expect_sphere_light(c, 4096, c.tolerance);
 }
 
-// GT 7 for lights with an area, each as a light and as an emissive mesh. Caught: radiance taken as radiant
+// Lights with an area, each as a light and as an emissive mesh. Caught: radiance taken as radiant
 // exitance (pi), a disk sampled as its square, a light that shines backwards.
 TEST(DirectLight, RectanglesAndDisks) {
   struct Case {
@@ -275,7 +275,7 @@ TEST(DirectLight, DisksByEitherStrategy) {
   }
 }
 
-// GT 7 for lights without an area: no sample varies. Caught: candela taken as lumen, a cosine forgotten or
+// Lights without an area: no sample varies. Caught: candela taken as lumen, a cosine forgotten or
 // doubled.
 TEST(DirectLight, PointAndDirectionalLights) {
   Scene point;
@@ -312,7 +312,7 @@ TEST(DirectLight, RangeEndsAPointLight) {
   }
 }
 
-// GT 7: all the light of a spot of 20 and 30 degrees on a plane: its flux. Caught: a smoothstep (.610), no
+// All the light of a spot of 20 and 30 degrees on a plane: its flux. Caught: a smoothstep (.610), no
 // square, full angles taken for half angles.
 TEST(DirectLight, SpotFlux) {
   Scene scene;
@@ -352,7 +352,7 @@ Scene plate(const Vec3f& normal, float albedo) {
   return scene;
 }
 
-// GT 8: plates in an environment of radiance 1 + w.a read albedo (1 + 2/3 n.a). Caught: an axis flipped or
+// Plates in an environment of radiance 1 + w.a read albedo (1 + 2/3 n.a). Caught: an axis flipped or
 // exchanged, the sine left out of the density, the rotation inverted.
 TEST(Environment, GradientsLightPlatesFromTheirSide) {
   const Vec3f axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -401,7 +401,7 @@ TEST(Environment, IsSeenWhereItIs) {
   }
 }
 
-// GT 53: a sun of one texel, 1e5 times as bright as the sky, on a plate: against an integral of the bilinear
+// A sun of one texel, 1e5 times as bright as the sky, on a plate: against an integral of the bilinear
 // lookup. Caught: a density that knows the texel but not what the lookup spreads to its neighbours, or that
 // lacks the sine.
 TEST(Environment, SunOfOneTexel) {

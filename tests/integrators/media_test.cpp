@@ -1,6 +1,7 @@
-// Pictures through dielectrics and the media inside them, with their closed forms (GT 16 to 20).
+// Pictures through dielectrics and the media inside them, with their closed forms.
 #include <gtest/gtest.h>
 
+#include "integrators/boundary.h"
 #include "materials/dispersion.h"
 #include "tests/integrators/support/render.h"
 #include "tests/integrators/support/shapes.h"
@@ -56,7 +57,7 @@ double worst_of(const Picture& p) {
   return worst;
 }
 
-// GT 16. Each path brings exactly 1 wherever it leaves, so each pixel is 1. Catches a Fresnel split that does
+// Each path brings exactly 1 wherever it leaves, so each pixel is 1. Catches a Fresnel split that does
 // not add up, a refraction on the wrong side, and self-hits.
 TEST(Glass, IsInvisibleInAFurnace) {
   for (const float ior : {1.0f, 1.1f, 1.5f, 2.4f})
@@ -84,7 +85,7 @@ TEST(Glass, OfAThinWallIsInvisibleInAFurnace) {
   EXPECT_LT(worst_of(render(scene, independent_settings(64, 64, 16), with(Strategy::bsdf, 1000))), 1e-4);
 }
 
-// GT 50. A coarse mesh with interpolated normals: where they would reflect or refract to the wrong side of
+// A coarse mesh with interpolated normals: where they would reflect or refract to the wrong side of
 // the triangle something is lost; how much is bounded here.
 TEST(Glass, OfACoarseMeshLosesLittleInAFurnace) {
   Scene scene;
@@ -103,7 +104,7 @@ double reflectance_at(double cosine, double n) {
   return 0.5 * (s * s + p * p);
 }
 
-// GT 17. Catches a missing internal reflection, and an absorption over the thickness instead of the path.
+// Catches a missing internal reflection, and an absorption over the thickness instead of the path.
 TEST(Slab, TransmitsWhatTheSeriesOfReflectionsLeaves) {
   const double degrees[] = {0, 60};
   for (const double angle : degrees)
@@ -133,7 +134,6 @@ TEST(Slab, ReflectsBothOfItsFaces) {
   EXPECT_TRUE(mean_is(probe(scene, 1024), 0.044990, 0.05));
 }
 
-// GT 18.
 TEST(AbsorbingSphere, TakesWhatItsChordTakes) {
   for (const float impact : {0.0f, 0.8f}) {
     Scene scene;
@@ -144,7 +144,7 @@ TEST(AbsorbingSphere, TakesWhatItsChordTakes) {
   }
 }
 
-// GT 19. Radiance is n^2 times as large inside: a furnace cannot see that.
+// Radiance is n^2 times as large inside: a furnace cannot see that.
 TEST(Camera, InsideGlassSeesRadianceScaled) {
   Scene scene;
   add_slab(scene, make_glass(1.5f), -5, 5);
@@ -184,7 +184,7 @@ Scene glass_and_water(Contact contact, bool glass_below) {
   return scene;
 }
 
-// GT 20. Touching exactly, or overlapping where the glass has priority: the same two interfaces. A gap is
+// Touching exactly, or overlapping where the glass has priority: the same two interfaces. A gap is
 // seen as one. Catches an interface with air in between, and a ray that skips the second of two surfaces in
 // one place and believes to be in the wrong medium from there on.
 TEST(NestedDielectrics, MeetWithoutAir) {
@@ -244,7 +244,7 @@ Scene rough_glass(float absorption) {
   return scene;
 }
 
-// GT 48. The strategies agree through rough interfaces: eval, sample and density of both sides, and the
+// The strategies agree through rough interfaces: eval, sample and density of both sides, and the
 // scale and absorption of light that is sampled across them.
 TEST(RoughGlass, StrategiesAgree) {
   for (const float absorption : {0.0f, 0.7f}) {
@@ -270,6 +270,20 @@ TEST(AbsorbingMedium, StrategiesAgreeInsideIt) {
   other.seed = 2;
   EXPECT_TRUE(means_agree(mean_of(render(scene, other, with(Strategy::light, 6)), 0), mis, 0.07));
   EXPECT_LT(mis.value, 0.7 * mean_of(render(rough_glass(0), settings, with(Strategy::mis, 6)), 0).value);
+}
+
+// Catches 0 times infinity, for a colour of 0 and for a ray that never ends, and a colour of 0 that is taken
+// for a small one: half of the light would be left after a hundredth of the distance.
+TEST(AbsorbingMedium, LeavesNothingOfABlackChannelAndAllOfAWhiteOne) {
+  Material m = make_glass(1.5f);
+  m.volume->attenuation_color = {0, 0.25f, 1};
+  m.volume->attenuation_distance = 2;
+  const Medium medium = make_medium(m);
+  EXPECT_EQ(transmittance(&medium, 0), Rgb(1, 1, 1));
+  EXPECT_EQ(transmittance(&medium, 1e-6f).x, 0);
+  EXPECT_NEAR(transmittance(&medium, 1).y, 0.5, 1e-6);
+  EXPECT_EQ(transmittance(&medium, 1e6f), Rgb(0, 0, 1));
+  EXPECT_EQ(transmittance(&medium, kInfinity), Rgb(0, 0, 1));
 }
 
 TEST(Dispersion, OfAClearSphereIsWhiteInAFurnace) {

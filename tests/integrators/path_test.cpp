@@ -96,7 +96,7 @@ void expect_strategies_agree(const std::vector<Material>& materials, std::uint32
     }
 }
 
-// GT 48. Caught: weights that do not sum to 1 (balance for one side, power for the other), a density of a
+// Caught: weights that do not sum to 1 (balance for one side, power for the other), a density of a
 // light that does not count its choice, an area density taken as one of solid angle.
 TEST(Path, StrategiesAgree) {
   expect_strategies_agree({make_lambert({0.7f, 0.5f, 0.3f}), make_metal({0.9f, 0.7f, 0.4f}, 0.6f)}, 48, 0.1,
@@ -155,7 +155,7 @@ Scene room(float scale, const Vec3f& offset, bool by_node) {
   return scene;
 }
 
-// GT 45. Caught: any length that does not scale: a constant offset of 1e-4 turns the small rooms black and
+// Caught: any length that does not scale: a constant offset of 1e-4 turns the small rooms black and
 // shifts the contact shadows of the far ones.
 TEST(Path, TheSamePictureAtEveryScaleAndPlace) {
   const RenderSettings settings = independent_settings(48, 48, 64, 3);
@@ -179,7 +179,7 @@ TEST(Path, TheSamePictureAtEveryScaleAndPlace) {
   expect_same(room(1000, {10000, 10000, 10000}, true), "1000 times, moved by 1e4");
 }
 
-// GT 46: a node that stretches, shears and mirrors shows what a mesh with those vertices and normals shows.
+// A node that stretches, shears and mirrors shows what a mesh with those vertices and normals shows.
 // Caught: normals taken along by the matrix itself, emitters' areas in their own space (a sphere light is
 // then 1.71 times as bright).
 TEST(Path, StretchedPlacementsMatchBakedMeshes) {
@@ -226,7 +226,7 @@ TEST(Path, StretchedPlacementsMatchBakedMeshes) {
   }
 }
 
-// GT 50: a closed body of few, smoothed triangles keeps the light out, whatever its normals say. Caught:
+// A closed body of few, smoothed triangles keeps the light out, whatever its normals say. Caught:
 // light tested against the shading normal alone, on the way in by light sampling or by BSDF sampling.
 TEST(Path, NoLightLeaksIntoSmoothClosedBodies) {
   for (const Material& material : {make_lambert({0.8f, 0.8f, 0.8f}), make_metal({0.9f, 0.9f, 0.9f}, 0.7f)})
@@ -356,7 +356,7 @@ TEST(Path, BlendedSheetsInAFurnace) {
   EXPECT_TRUE(mean_is(mean_of(render(scene, independent_settings(64, 64, 16)), 0), 1, 0.01));
 }
 
-// GT 57: lights without power, without area, or on top of their receiver give finite numbers, and drop no
+// Lights without power, without area, or on top of their receiver give finite numbers, and drop no
 // sample.
 TEST(Path, DegenerateLightsAreHarmless) {
   const auto render_with = [](const std::function<void(Scene&)>& add) {
@@ -413,7 +413,7 @@ TEST(Path, DegenerateLightsAreHarmless) {
   EXPECT_NEAR(mean_of(render(scene, independent_settings(8, 8, 4)), 0).value, 0.284705, 2e-4);
 }
 
-// GT 50: triangles without area at the poles of a smooth, emissive, textured sphere.
+// Triangles without area at the poles of a smooth, emissive, textured sphere.
 TEST(Path, DegenerateTrianglesOfEmittersAndReceivers) {
   Primitive sphere = make_uv_sphere({0.5f, 0.5f, 0.5f}, 0.3f, 8);
   std::vector<Triangle> triangles(sphere.triangles.begin(), sphere.triangles.end());
@@ -452,7 +452,7 @@ double convergence_slope(SamplerKind sampler) {
   return xy / xx;
 }
 
-// GT 60. Caught: a bias of 2% flattens the first slope to -.43; an unscrambled or reused dimension the
+// Caught: a bias of 2% flattens the first slope to -.43; an unscrambled or reused dimension the
 // second.
 TEST(Path, ErrorFallsWithTheSquareRootOfSamplesAndFasterWithSobol) {
   EXPECT_NEAR(convergence_slope(SamplerKind::independent), -0.5, 0.05);

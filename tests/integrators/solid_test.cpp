@@ -1,4 +1,4 @@
-// Pictures of solids whose radiance is known in closed form (GT 1, 2, 6, 46), and of solids against meshes.
+// Pictures of solids whose radiance is known in closed form, and of solids against meshes.
 #include <gtest/gtest.h>
 
 #include "tests/integrators/support/render.h"
@@ -37,7 +37,7 @@ Scene furnace(const Shape& shape, const Rgb& albedo, const Transform& transform)
   return scene;
 }
 
-// GT 1 for albedo 1: each path brings exactly 1. Caught: self-hits, flipped normals, origins inside.
+// Albedo 1: each path brings exactly 1. Caught: self-hits, flipped normals, origins inside.
 TEST(SolidFurnace, EveryPixelOfAWhiteBodyIsOne) {
   for (const NamedShape& shape : shapes())
     for (const Transform& transform : {Transform{}, stretched(false), stretched(true)}) {
@@ -61,7 +61,7 @@ Scene closed_emitter(const Shape& shape, const Transform& transform) {
   return scene;
 }
 
-// GT 2. Caught: missing caps, a second nappe, acne and leaks darken it.
+// Caught: missing caps, a second nappe, acne and leaks darken it.
 TEST(SolidFurnace, ClosedEmittersSumTheSeries) {
   for (const NamedShape& shape : shapes())
     for (const Transform& transform : {Transform{}, stretched(true)}) {
@@ -114,7 +114,7 @@ Scene sphere_over_plate(double distance, double theta) {
   return scene;
 }
 
-// GT 6, also partly below the horizon.
+// Also partly below the horizon.
 TEST(SolidLight, SpheresOverAPlate) {
   struct Case {
     double distance, theta, factor;
@@ -247,7 +247,7 @@ TEST(SolidTexture, LooksAsOnAFineMesh) {
   }
 }
 
-// Scale: the same still life 10^-6 to 10^6 times as large is the same picture (GT 45).
+// Scale: the same still life 10^-6 to 10^6 times as large is the same picture.
 TEST(SolidScale, PicturesDoNotDependOnIt) {
   const auto scene_of = [](float s) {
     Scene scene;

@@ -44,7 +44,7 @@ TEST(Albedo, OfGgxIsThatOfQuadrature) {
     }
 }
 
-// GT 21, by independent computations; the one for alpha 1 is exact.
+// By independent computations; the one for alpha 1 is exact.
 TEST(Albedo, OfGgxIsWhatIsKnown) {
   const struct {
     float alpha, mu;

@@ -25,7 +25,7 @@ const Bsdf::AnyLobe kLobes[] = {Lambert{{0.8f, 0.8f, 0.8f}},
                                 MetallicRoughness{{0.8f, 0.6f, 0.4f}, 1, {0, 0, 0}, 1, {0.3f}},
                                 MetallicRoughness{{0.8f, 0.6f, 0.4f}, 0, {0.04f, 0.04f, 0.04f}, 1, {0.1f}}};
 
-// GT 50. Catches light that passes through the surface where shading and geometric normal disagree, in
+// Catches light that passes through the surface where shading and geometric normal disagree, in
 // evaluation and in sampling, from the front and from the back.
 TEST(Bsdf, LetsNoLightThroughBetweenTheNormals) {
   const Vec3f ng(0, 0, 1), ns = normalize(Vec3f(0.8f, 0, 0.6f));
@@ -110,7 +110,8 @@ class MakeBsdf : public testing::Test {
     const World world = make_world(scene_);
     const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, 0.9f)), wi = normalize(Vec3f(-0.5f, 0.1f, 0.6f));
     const Surface surface = make_surface(scene_, world, {1, 0, 0.5f, 0, 0, 0}, -wo);
-    const BsdfValue made = make_bsdf(scene_, surface).eval(wi), expected = Bsdf(surface, lobe).eval(wi);
+    const BsdfValue made = make_bsdf(scene_, surface, Microfacets::single).eval(wi),
+                    expected = Bsdf(surface, lobe).eval(wi);
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(made.f_cos[k], expected.f_cos[k], 1e-5f * (1 + expected.f_cos[k])) << k;
     EXPECT_NEAR(made.pdf, expected.pdf, 1e-5f * (1 + expected.pdf));

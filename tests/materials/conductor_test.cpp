@@ -8,7 +8,7 @@
 namespace parian {
 namespace {
 
-/// Gold, about (GT 11).
+/// Gold, about.
 Conductor gold(float alpha) { return {{.143f, .422f, .965f}, {3.983f, 2.347f, 6.40f}, {alpha}}; }
 /// Reflects all: Fresnel's equations give exactly 1 for an index without a real part.
 Conductor perfect(float alpha) { return {{0, 0, 0}, {2, 2, 2}, {alpha}}; }
@@ -51,7 +51,6 @@ TEST(Conductor, ReflectanceIsThatOfTheFacet) {
   }
 }
 
-// GT 21.
 TEST(Conductor, AlbedoWithoutLossIsThatOfGgx) {
   for (const GgxTruth& c : kGgxTruths) {
     EXPECT_NEAR(albedo(perfect(c.alpha), c.cosine), c.albedo, 1e-4) << c.alpha << " at " << c.cosine;
@@ -94,79 +93,7 @@ TEST(Conductor, MirrorIsFoundBySamplingOnly) {
   EXPECT_FALSE(gold(Ggx::kMinAlpha).is_mirror());
 }
 
-// Catches a pdf without the Jacobian 1 / (4 wo.h), or with G2 for G1.
-TEST(Conductor, SamplesWithItsDensity) {
-  for (const float alpha : {1e-3f, 1e-2f, 0.1f, 0.5f, 1.0f})
-    for (const float cosine : {1.0f, 0.6f, 0.1f}) {
-      const Conductor lobe = gold(alpha);
-      const Vec3f wo = at_cosine(cosine);
-      TestRandom random(std::uint32_t(alpha * 1000 + cosine * 100));
-      const auto sample = [&]() -> std::optional<Vec3f> {
-        const auto s = lobe.sample(wo, 0, random.next2());
-        return s ? std::optional(s->wi) : std::nullopt;
-      };
-      const auto pdf = [&](const Vec3f& wi) { return lobe.eval(wo, wi).pdf; };
-      EXPECT_TRUE(samples_directions(sample, pdf, lobe_cells(lobe, wo), 50000, 15))
-          << "alpha " << alpha << ", cosine " << cosine;
-    }
-}
-
-// At the horizon the lobe of a small alpha is a needle of alpha by alpha cos that cells of directions do not
-// resolve. Those of half vectors do, of which there are 4 wo.h times as many per solid angle. Coarse ones: at
-// 1e-3 and 1e-3 directions in single precision are a lattice of 1/50 of the lobe's width.
-TEST(Conductor, SamplesWithItsDensityAtGrazingAngles) {
-  for (const float alpha : {1e-3f, 1e-2f, 0.1f, 0.5f, 1.0f})
-    for (const float cosine : {0.6f, 1e-2f, 1e-3f}) {
-      const Conductor lobe = gold(alpha);
-      const Vec3f wo = at_cosine(cosine);
-      TestRandom random(std::uint32_t(alpha * 1000 + cosine * 1000));
-      const auto sample = [&]() -> std::optional<Vec3f> {
-        const auto s = lobe.sample(wo, 0, random.next2());
-        return s ? std::optional(normalize(wo + s->wi)) : std::nullopt;
-      };
-      const auto pdf = [&](const Vec3f& h) {
-        const float to_facet = wo.dot(h);
-        return h.z > 0 && to_facet > 0 ? 4 * to_facet * lobe.eval(wo, h * (2 * to_facet) - wo).pdf : 0;
-      };
-      const SphereCells cells{
-          .zoom = 0.1 * alpha * alpha, .rings = 16, .sectors = 8, .tolerance = 1e-6, .depth = 7};
-      EXPECT_TRUE(samples_directions(sample, pdf, cells, 20000, 15))
-          << "alpha " << alpha << ", cosine " << cosine;
-    }
-}
-
-TEST(Conductor, WeightIsTheValueOverTheDensity) {
-  TestRandom random(2);
-  for (int i = 0; i < 20000; ++i) {
-    const Conductor lobe = gold(std::max(Ggx::kMinAlpha, random.next1()));
-    const Vec3f wo = at_cosine(1 - random.next1());
-    const auto s = lobe.sample(wo, 0, random.next2());
-    if (!s) continue;
-    const BsdfValue value = lobe.eval(wo, s->wi);
-    ASSERT_GT(s->pdf, 0);
-    ASSERT_EQ(s->pdf, value.pdf);
-    for (int k = 0; k < 3; ++k) {
-      ASSERT_NEAR(s->weight[k], value.f_cos[k] / value.pdf, 1e-5f);
-      ASSERT_LE(s->weight[k], 1 + 1e-5f);
-    }
-    ASSERT_GT(s->wi.z, 0);
-    ASSERT_NEAR(s->wi.length(), 1, 1e-5);
-  }
-}
-
-// Catches F at wo.n, and a cosine on the wrong side.
-TEST(Conductor, IsReciprocal) {
-  TestRandom random(3);
-  for (int i = 0; i < 10000; ++i) {
-    const Conductor lobe = gold(0.01f + random.next1());
-    const Vec3f a = at_cosine(0.02f + 0.98f * random.next1(), 6 * random.next1()),
-                b = at_cosine(0.02f + 0.98f * random.next1(), 6 * random.next1());
-    const Rgb forth = lobe.eval(a, b).f_cos * (1 / b.z), back = lobe.eval(b, a).f_cos * (1 / a.z);
-    for (int k = 0; k < 3; ++k) ASSERT_NEAR(forth[k], back[k], 2e-4f * (forth[k] + 1e-3f));
-  }
-}
-
-// GT 49: nothing but finite, non-negative numbers down to a mirror and to a viewer at the horizon, for metals
+// Nothing but finite, non-negative numbers down to a mirror and to a viewer at the horizon, for metals
 // with and without loss, and for an index of air.
 TEST(Conductor, StaysFiniteForSmallAlphaAndGrazingAngles) {
   TestRandom random(4);

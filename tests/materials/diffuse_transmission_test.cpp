@@ -79,17 +79,5 @@ TEST(DiffuseTransmission, WeightIsTheValueOverTheDensity) {
   }
 }
 
-TEST(DiffuseTransmission, IsReciprocal) {
-  TestRandom random(4);
-  for (int i = 0; i < 1000; ++i) {
-    const Vec3f a = at_cosine(0.02f + 0.98f * random.next1(), 6 * random.next1()), b = random.direction();
-    // Seen from b, the frame turns over with it.
-    const float side = b.z < 0 ? -1.0f : 1.0f;
-    const Rgb forth = kLeaf.eval(a, b).f_cos * (1 / std::abs(b.z));
-    const Rgb back = kLeaf.eval(b * side, a * side).f_cos * (1 / a.z);
-    ASSERT_NEAR(forth.y, back.y, 1e-6);
-  }
-}
-
 }  // namespace
 }  // namespace parian

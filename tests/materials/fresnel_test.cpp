@@ -21,7 +21,7 @@ long double dielectric(long double c, long double eta) {
   return (s * s + p * p) / 2;
 }
 
-/// By the complex refracted cosine: another route than GT 11's.
+/// By the complex refracted cosine: another route than the tested one's.
 long double conductor(long double c, long double eta, long double k) {
   using Complex = std::complex<long double>;
   const Complex n(eta, k), q = std::sqrt((n - 1.0L) * (n + 1.0L) + c * c);
@@ -53,7 +53,7 @@ std::vector<float> sweep(float eta) {
   return cosines;
 }
 
-// GT 10. Catches Schlick in place of Fresnel (.070 at 60 degrees), and the index turned upside down.
+// Catches Schlick in place of Fresnel (.070 at 60 degrees), and the index turned upside down.
 TEST(Fresnel, DielectricTable) {
   const struct {
     float eta;
@@ -107,7 +107,7 @@ TEST(Fresnel, DielectricIsTheSameFromBothSides) {
     }
 }
 
-// GT 11. Catches the mean of the squares (gold's blue .67), and a's cancellation.
+// Catches the mean of the squares (gold's blue .67), and a's cancellation.
 TEST(Fresnel, ConductorTable) {
   const struct {
     float eta, k;
@@ -160,7 +160,7 @@ TEST(Fresnel, ConductorIsFiniteForAnyIndex) {
       }
 }
 
-// GT 12. "+ refracted cosine" leaves on the wrong side; a lost square root or 1 / eta break the length.
+// "+ refracted cosine" leaves on the wrong side; a lost square root or 1 / eta break the length.
 TEST(Fresnel, RefractsBySnell) {
   TestRandom random(1);
   int refracted = 0;

@@ -22,7 +22,7 @@ TEST(Ggx, FacetsCoverTheSurfaceOnce) {
   }
 }
 
-// D(n) = 1 / (pi alpha^2). A form with 1 - cos^2 is 2.6% low at 1e-3 and infinite at 1e-4 (GT 49).
+// D(n) = 1 / (pi alpha^2). A form with 1 - cos^2 is 2.6% low at 1e-3 and infinite at 1e-4.
 TEST(Ggx, PeakIsExactForSmallAlpha) {
   for (const float alpha : {1e-4f, 1e-3f, 1e-2f, 1.0f}) {
     EXPECT_NEAR(Ggx{alpha}.d({0, 0, 1}) * kPiD * alpha * alpha, 1, 1e-6);
@@ -74,7 +74,7 @@ TEST(Ggx, SamplesVisibleNormalsWithTheirDensity) {
     }
 }
 
-// GT 49. Every normal is unit, faces wo, and lies above the surface, at the corners of the square too.
+// Every normal is unit, faces wo, and lies above the surface, at the corners of the square too.
 TEST(Ggx, StaysFiniteForSmallAlphaAndGrazingAngles) {
   for (const float alpha : {Ggx::kMinAlpha, 1e-3f, 0.1f, 1.0f})
     for (const float cosine : {1.0f, 0.1f, 1e-2f, 1e-3f, 1e-4f, 1e-6f}) {

@@ -34,7 +34,7 @@ Statistics sampled_albedo(const T& lobe, float cosine, int samples, std::uint32_
   return s;
 }
 
-/// Albedos of GGX facets that reflect all, with height-correlated masking (GT 21). The separable form gives
+/// Albedos of GGX facets that reflect all, with height-correlated masking. The separable form gives
 /// .68601 at alpha .5, mu .5, and .40914 at alpha 1.
 struct GgxTruth {
   float alpha, cosine;

@@ -63,7 +63,7 @@ int count_leaks(int rays, Aim aim, bool editable, const Transform& transform, st
   return leaks + packets.lost + packets.shadows;
 }
 
-// GT 52. Caught: RTC_SCENE_FLAG_ROBUST left out, by which about one ray in a thousand at an edge gets out.
+// Caught: RTC_SCENE_FLAG_ROBUST left out, by which about one ray in a thousand at an edge gets out.
 TEST(Accel, NothingLeaksThroughSharedEdges) {
   Transform turned = translate({10, -20, 5});
   turned.rotation = Quatf(0.5f, 0.5f, 0.1f, 0.7f).normalized();
@@ -74,7 +74,7 @@ TEST(Accel, NothingLeaksThroughSharedEdges) {
         EXPECT_EQ(count_leaks(150000, aim, editable, transform, 11), 0);
 }
 
-// GT 52: the limit of Embree's robust mode. A ray aimed at the very coordinates of a vertex, where the edge
+// The limit of Embree's robust mode. A ray aimed at the very coordinates of a vertex, where the edge
 // tests of all its triangles round apart, gets out once in some 2000 on a sphere around the origin and once
 // in some 100 on one that lies 20 radii away; nothing but such an aim finds a vertex.
 TEST(Accel, RaysAtExactVerticesRarelyLeak) {
@@ -148,7 +148,7 @@ SelfHits count_self_hits(int scenes, int rays, bool editable, std::uint32_t seed
   return result;
 }
 
-// GT 43 to 46. Caught: a constant offset of 1e-4, error_gamma(1) for error_gamma(16), the condition of the
+// Caught: a constant offset of 1e-4, error_gamma(1) for error_gamma(16), the condition of the
 // placement left out, p itself as the origin.
 TEST(Accel, RaysDoNotMeetTheTriangleTheyLeft) {
   for (const bool editable : {false, true}) {

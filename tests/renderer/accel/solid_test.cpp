@@ -175,11 +175,11 @@ void leave_solids(int solids, int rays, std::uint32_t seed) {
   EXPECT_EQ(lost, 0) << "of " << inwards;
 }
 
-// GT 43, 44. Caught: an offset that forgets the translation; points not projected onto the surface.
+// Caught: an offset that forgets the translation; points not projected onto the surface.
 TEST(Solids, RaysThatLeaveDoNotMeetTheirSurfaceAgain) { leave_solids(400, 500, 5); }
 TEST(NightlySolids, RaysThatLeaveDoNotMeetTheirSurfaceAgainInTenMillion) { leave_solids(20000, 1000, 6); }
 
-// GT 42: a ray that is followed through a solid from outside comes out again.
+// A ray that is followed through a solid from outside comes out again.
 TEST(Solids, CrossingsFromOutsideAreEven) {
   TestRandom random(7);
   const std::vector<Shape> shapes = curved_shapes();

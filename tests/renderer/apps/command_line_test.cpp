@@ -57,6 +57,7 @@ TEST_F(CommandLine, BadUsageIsTwo) {
   expect_refused(2, render_arguments({"--sampler", "halton"}), "halton");
   expect_refused(2, render_arguments({"--filter", "gauss"}), "gauss");
   expect_refused(2, render_arguments({"--strategy", "both"}), "both");
+  expect_refused(2, render_arguments({"--light-choice", "nearest"}), "nearest");
   expect_refused(2, render_arguments({"--aov", "velocity"}), "velocity");
   expect_refused(2, {"render", triangle, "-o", work("out.png")}, "out.png");
   expect_refused(2, {"render", triangle, "-o", work("out")}, "out");
@@ -180,9 +181,31 @@ TEST_F(CommandLine, ResumingGivesTheSamePicture) {
   expect_refused(3, render_arguments({"--size", "40x30", "--seed", "1", "--resume", work("c"), "--quiet"}),
                  work("c"));
   expect_refused(3, render_arguments({"--size", "41x30", "--resume", work("c"), "--quiet"}), work("c"));
+  expect_refused(
+      3, render_arguments({"--size", "40x30", "--light-choice", "power", "--resume", work("c"), "--quiet"}),
+      work("c"));
   const std::string bytes = read_bytes(work("c"));
   write("work/cut", bytes.substr(0, bytes.size() / 2));
   expect_refused(3, render_arguments({"--size", "40x30", "--resume", work("cut"), "--quiet"}), work("cut"));
+}
+
+// Caught: an option that is read and forgotten, two names for one choice, another default.
+TEST_F(CommandLine, LightsAreChosenAsAskedFor) {
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "render", PARIAN_SOURCE_DIR "/scenes/lights/lights.gltf", "-o", work("a.exr"), "--size", "48x32",
+        "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).code, 0);
+    return read_picture(work("a.exr")).pixels;
+  };
+  const auto tree = with({"--spp", "4", "--light-choice", "tree"}),
+             power = with({"--spp", "4", "--light-choice", "power"}),
+             uniform = with({"--spp", "4", "--light-choice", "uniform"});
+  EXPECT_EQ(with({"--spp", "4"}), tree);
+  EXPECT_NE(power, tree);
+  EXPECT_NE(uniform, tree);
+  EXPECT_NE(uniform, power);
 }
 
 // Caught: an exit code of 130, a lost picture, a temporary left behind.

@@ -56,7 +56,7 @@ TEST(Distribution1D, NeverChoosesAnIndexOfWeightZero) {
   }
 }
 
-// Catches a remainder that is u itself (biased: GT 55), or that is not divided by the probability.
+// Catches a remainder that is u itself (biased), or that is not divided by the probability.
 TEST(Distribution1D, RemainderIsUniformWithinEveryIndex) {
   const std::vector<float> weights{1, 4, 0, 2, 9};
   const Distribution1D distribution(weights);
@@ -71,7 +71,7 @@ TEST(Distribution1D, RemainderIsUniformWithinEveryIndex) {
   EXPECT_TRUE(chi_square(observed, expected));
 }
 
-// Catches 0/0 (GT 57).
+// Catches 0/0.
 TEST(Distribution1D, OfZeroWeightsIsUniform) {
   const Distribution1D distribution(std::vector<float>(4, 0));
   EXPECT_EQ(distribution.total(), 0);
@@ -91,7 +91,7 @@ TEST(Distribution1D, OfOneWeightAlwaysChoosesIt) {
   }
 }
 
-// A sequential sum in float is 36% low (GT 53).
+// A sequential sum in float is 36% low.
 TEST(Distribution1D, SumsManyWeightsInDouble) {
   constexpr int kCount = 33'000'000;
   const Distribution1D distribution(std::vector<float>(kCount, 0.1f));
@@ -126,7 +126,7 @@ TEST(Distribution2D, SamplesWithItsDensity) {
   EXPECT_TRUE(chi_square(observed, expected));
 }
 
-// Uniform sampling finds this texel with 4.8e-7; it holds .8266 of the power (GT 53).
+// Uniform sampling finds this texel with 4.8e-7; it holds .8266 of the power.
 TEST(Distribution2D, FindsTheSun) {
   constexpr int kX = 2048, kY = 1024, kSunX = 1234, kSunY = 300, kSamples = 40000;
   const Distribution2D distribution(kX, kY,

@@ -12,7 +12,7 @@ void expect_near(const Vec3f& a, const Vec3f& b, float tolerance = 1e-6f) {
       << "(" << a.x << ", " << a.y << ", " << a.z << ") is not (" << b.x << ", " << b.y << ", " << b.z << ")";
 }
 
-// Without the inverse transpose this is off by 61.9 degrees (GT 46).
+// Without the inverse transpose this is off by 61.9 degrees.
 TEST(Affine, NormalOfAStretchedSurface) {
   const Affine stretch{{1, 0, 0}, {0, 1, 0}, {0, 0, 4}, {7, 8, 9}};
   expect_near(normalize(stretch.normal({1, 0, 1})), normalize(Vec3f(4, 0, 1)));

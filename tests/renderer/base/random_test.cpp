@@ -18,7 +18,7 @@ std::uint32_t random_bits(TestRandom& random) {
   return std::uint32_t(random.next1() * 0x1p16f) << 16 | std::uint32_t(random.next1() * 0x1p16f);
 }
 
-// Catches x * 2^-32, which rounds to 1 (GT 54).
+// Catches x * 2^-32, which rounds to 1.
 TEST(ToUnitFloat, IsNeverOne) {
   EXPECT_EQ(to_unit_float(0), 0);
   EXPECT_EQ(to_unit_float(0x80000000u), 0.5f);
@@ -208,7 +208,7 @@ std::array<std::vector<float>, kDimensions> dimensions_of(SamplerKind kind, std:
 double expected_square(SamplerKind kind) { return kind == kSobol ? 1.56 : 1; }
 
 // Catches unscrambled Sobol
-// dimensions, whose worst pairs reach .997 at 64 points (GT 55), and scrambles of x and y that share bits.
+// dimensions, whose worst pairs reach .997 at 64 points, and scrambles of x and y that share bits.
 TEST(Sampler, NoTwoDimensionsCorrelate) {
   for (const SamplerKind kind : {kSobol, kIndependent}) {
     double worst = 0;
@@ -227,7 +227,7 @@ TEST(Sampler, NoTwoDimensionsCorrelate) {
   }
 }
 
-// Catches a seed that is a plain function of the pixel's number (GT 54).
+// Catches a seed that is a plain function of the pixel's number.
 TEST(Sampler, NeighbouringPixelsAndSeedsDoNotCorrelate) {
   for (const SamplerKind kind : {kSobol, kIndependent}) {
     const auto base = [&](int dx, int dy, std::uint32_t seed, int dimension) {

@@ -24,7 +24,7 @@ TEST(ChiSquare, HasTheRightTail) {
   EXPECT_EQ(gamma_q(3, 0), 1);
 }
 
-// 26000 samples over 100 degrees of freedom find errors of 5% in a cell, 660000 of 1% (GT 60).
+// 26000 samples over 100 degrees of freedom find errors of 5% in a cell, 660000 of 1%.
 TEST(ChiSquare, FindsSmallErrorsAndAcceptsTheTruth) {
   for (const auto& [samples, error] : {std::pair(52000, 0.06), {1300000, 0.012}}) {
     TestRandom random(1);
@@ -86,7 +86,7 @@ TEST(SampleDirections, AreUnitAndAboveTheHorizonAtTheCorners) {
     }
 }
 
-// E[r] = 2/3, a quarter lies within half the radius (GT 13). Catches r = u.
+// E[r] = 2/3, a quarter lies within half the radius. Catches r = u.
 TEST(SampleDisk, IsUniform) {
   TestRandom random(5);
   Statistics radius, inner;
@@ -126,7 +126,7 @@ TEST(SampleTriangle, IsUniform) {
   EXPECT_TRUE(chi_square(observed, expected));
 }
 
-// a^2 overflows at 1e20 and underflows at 1e-23 (GT 48).
+// a^2 overflows at 1e20 and underflows at 1e-23.
 TEST(PowerHeuristic, NeitherOverflowsNorUnderflows) {
   EXPECT_EQ(power_heuristic(1, 0), 1);
   EXPECT_EQ(power_heuristic(1, 1), 0.5f);
@@ -145,7 +145,7 @@ TEST(PowerHeuristic, NeitherOverflowsNorUnderflows) {
   }
 }
 
-// Also where a square would overflow or vanish (GT 48).
+// Also where a square would overflow or vanish.
 TEST(PowerHeuristic, OverTheDensityIsOneDivisionLess) {
   for (const float a : {1e-25f, 1e-3f, 1.0f, 7.5f, 1e12f, 1e30f})
     for (const float b : {0.0f, 1e-25f, 1e-3f, 1.0f, 3.0f, 1e12f, 1e30f}) {

@@ -46,7 +46,7 @@ float channel(const Picture& picture, int x, int y, const std::string& name) {
 }
 
 // Catches sums per pass that are added later (another rounding), tiles that are put in the wrong place or
-// row, and a merge that adds to what was checked out (GT 56).
+// row, and a merge that adds to what was checked out.
 TEST(Film, IsBitIdenticalHoweverPassesAndTilesAreCut) {
   Film whole(13, 7, {});
   render(whole, 0, 64, 100);

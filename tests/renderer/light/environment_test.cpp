@@ -88,7 +88,7 @@ Rgb contrast(int x, int y) {
   return Rgb(x == 5 && y == 2 ? 200.0f : y == 4 ? 0.0f : float(1 + (3 * x + y) % 5));
 }
 
-// GT 48. Catches a lost sin(theta), a density per unit square, and an image that is sampled unturned.
+// Catches a lost sin(theta), a density per unit square, and an image that is sampled unturned.
 TEST(EnvironmentLight, SamplesWithItsDensity) {
   for (const Quatf& rotation : {Quatf(1, 0, 0, 0), turn(normalize(Vec3f(1, 2, -1)), 1.1f)}) {
     const Scene scene = make_sky(16, 8, contrast, rotation);
@@ -167,7 +167,7 @@ Statistics plate(const EnvironmentLight& sky, const Vec3f& n, int samples, std::
   return s;
 }
 
-// L = 1 + w.a: a plate facing a reflects 5/3, away from it 1/3, sideways 1 (GT 8). Catches axis flips and a
+// L = 1 + w.a: a plate facing a reflects 5/3, away from it 1/3, sideways 1. Catches axis flips and a
 // missing sin(theta).
 TEST(EnvironmentLight, LightsPlatesAsItsClosedForm) {
   const Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -183,7 +183,7 @@ TEST(EnvironmentLight, LightsPlatesAsItsClosedForm) {
   }
 }
 
-// A sun of 1e7 in one texel of 2048 x 1024 among ones (GT 53): a plate facing it, in closed form but for the
+// A sun of 1e7 in one texel of 2048 x 1024 among ones: a plate facing it, in closed form but for the
 // texel's size. Uniform sampling would not find it once.
 TEST(EnvironmentLight, FindsASunOfOneTexel) {
   constexpr int kX = 2048, kY = 1024, kSunX = 700, kSunY = 400;
@@ -195,7 +195,7 @@ TEST(EnvironmentLight, FindsASunOfOneTexel) {
   EXPECT_TRUE(mean_is(plate(sky, towards, 100000, 7), 1 + (1e7 - 1) * texel / std::numbers::pi, 0.02));
 }
 
-// GT 57: black, by its factor or by its image.
+// Black, by its factor or by its image.
 TEST(EnvironmentLight, BlackIsHarmless) {
   const Scene none;
   EXPECT_TRUE(EnvironmentLight(none).black());

@@ -1,4 +1,4 @@
-// What lights send to a point, in closed form (GT 7).
+// What lights send to a point, in closed form.
 #include <gtest/gtest.h>
 
 #include "tests/renderer/light/support/lit_scene.h"
@@ -123,7 +123,7 @@ TEST(Irradiance, ATexturedEmitter) {
 }
 
 // The square in 80 pieces of unequal radiance: an own number chooses; in 3: one number serves twice. Re-using
-// u for the point without rescaling it biases (GT 55).
+// u for the point without rescaling it biases.
 TEST(Irradiance, ManyLightsAddUpWithoutBias) {
   for (const int pieces : {3, 80}) {
     Scene scene;

@@ -45,7 +45,7 @@ void for_each_light_on_ray(const LitScene& lit, const Receiver& to, const Vec3f&
         if (placement.to_world.determinant() < 0) n = -n;
         if (!part.material->double_sided && d.dot(n) >= 0) continue;
         const auto uvs = interpolate_uvs(*part.primitive, t, float(hit->y), float(hit->z));
-        visit(eval_emission(lit.scene, *part.material, uvs),
+        visit(eval_emission(lit.scene, *part.material, uvs, std::abs(d.dot(n))),
               lit.table.pdf_triangle({float(hit->x), float(hit->y), float(hit->z), k, i, j}, to,
                                      std::abs(d.dot(n))));
       }
@@ -73,7 +73,7 @@ float pdf_on_ray(const LitScene& lit, const Vec3f& p, const Vec3f& d) {
 
 // --- Densities ---
 
-// GT 48. The directions that sample() draws follow the sum of the densities that pdf_...() state of all
+// The directions that sample() draws follow the sum of the densities that pdf_...() state of all
 // lights behind one another; catches area densities that are not converted, a choice that is not in, and
 // lights numbered wrongly.
 void expect_density(const Scene& scene, const Vec3f& p, const Vec3f& towards, const char* name) {
@@ -254,7 +254,7 @@ TEST(LightTable, WeighsTheSkyBySizeOfTheScene) {
   EXPECT_NEAR(lit.table.look_up_environment({0, 1, 0}, {Vec3f(0), Vec3f(0)}).pdf, 1 / (4 * kPiD) / 3, 1e-6);
 }
 
-// --- Degenerate lights (GT 57) ---
+// --- Degenerate lights ---
 
 void expect_finite(const Scene& scene, const std::vector<Vec3f>& points, const char* name) {
   const LitScene lit(scene);

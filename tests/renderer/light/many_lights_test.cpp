@@ -76,7 +76,7 @@ TEST(ManyLights, AddUpWithoutBias) {
     Room room(count, std::uint32_t(count));
     const auto truth = [&](const Receiver& to) {
       // A point light at (1, 2, 1); a spot that shines down from (2, 4, -3), whose falloff is glTF's; a
-      // sphere of radius .3 and radiance 5 (GT 7); two suns, one of which shines from below; a constant sky.
+      // sphere of radius .3 and radiance 5; two suns, one of which shines from below; a constant sky.
       const Vec3d way = Vec3d(1, 2, 1) - Vec3d(to.p), spot = Vec3d(2, 4, -3) - Vec3d(to.p),
                   sphere = Vec3d(-2, 1, 1) - Vec3d(to.p);
       const double cosine = spot.y / spot.length(), inner = std::cos(0.3), outer = std::cos(0.8);

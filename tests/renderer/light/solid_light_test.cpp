@@ -132,7 +132,7 @@ TEST(SolidLights, ShareTheChoiceWithOtherLights) {
   EXPECT_LT(4.5 * s.standard_error(), 0.03 * kPi / 16);
 }
 
-// GT 46: lights are chosen by the area of the image. Two black-bottomed lamps of equal radiance, one of them
+// Lights are chosen by the area of the image. Two black-bottomed lamps of equal radiance, one of them
 // stretched to (2, 1, 1): 21.478 to 12.566.
 TEST(SolidLights, AreChosenByTheAreaOfTheirImage) {
   Scene scene;

@@ -68,7 +68,7 @@ TEST(Camera, PixelsAreSquare) {
   }
 }
 
-// GT 15: a sphere of radius 1 at distance 3, yfov 60 degrees, has an image of radius .612372 of the
+// A sphere of radius 1 at distance 3, yfov 60 degrees, has an image of radius .612372 of the
 // half-image; R / d would be .57735.
 TEST(Camera, ASphereHasItsPerspectiveRadius) {
   const CameraView view = make_view(perspective(kPi / 3), 400, 300);
@@ -114,7 +114,7 @@ TEST(Camera, StandsWhereItsNodeIs) {
   expect_near(generate_ray(make_view(perspective(1), 100, 100, t), {50, 50}).d, {-1, 0, 0});
 }
 
-// GT 13: E[r] = 2 R / 3, a quarter within R / 2. Catches r = R u.
+// E[r] = 2 R / 3, a quarter within R / 2. Catches r = R u.
 TEST(Lens, IsSampledUniformly) {
   const CameraView view = make_view(thin_lens(), 100, 100);
   EXPECT_FLOAT_EQ(view.lens_radius, 0.05f) << "focal length over twice the f-stop";
@@ -135,7 +135,7 @@ TEST(Lens, IsSampledUniformly) {
   EXPECT_TRUE(mean_is(y, 0, 0.001));
 }
 
-// GT 13: all rays of a film point meet on the plane of focus, where the pinhole's ray crosses it. Catches
+// All rays of a film point meet on the plane of focus, where the pinhole's ray crosses it. Catches
 // focus at a distance along the ray, which curves the plane.
 TEST(Lens, FocusesOnAPlane) {
   const Transform pose = look_along({3, -1, 2}, normalize(Vec3f(1, 2, -2)));
@@ -149,7 +149,7 @@ TEST(Lens, FocusesOnAPlane) {
   }
 }
 
-// GT 14: a point at depth z is a circle of diameter A |z - z_f| / z on the plane of focus. The bundle of the
+// A point at depth z is a circle of diameter A |z - z_f| / z on the plane of focus. The bundle of the
 // image's middle has a diameter at z that, seen from the lens, is as large.
 TEST(Lens, HasTheRightCircleOfConfusion) {
   const CameraView view = make_view(thin_lens(), 100, 100);

@@ -60,7 +60,7 @@ TEST(Surface, TakesTheVerticesByTheirWeights) {
   expect_near(surface_of(scene, {0, 0, -1}, hit_at(0.5f, 0.25f)).p, {2.5f, 3.5f, 3});
 }
 
-// GT 46: a plane of normal (1, 0, 1) stretched by diag(1, 1, 4) has normal (4, 0, 1); without the inverse
+// A plane of normal (1, 0, 1) stretched by diag(1, 1, 4) has normal (4, 0, 1); without the inverse
 // transpose it is 61.9 degrees off. The geometric normal and an interpolated one alike.
 TEST(Surface, NormalsFollowANonUniformScale) {
   const Primitive flat = make_triangle({0, 0, 0}, {1, 0, -1}, {0, 1, 0});
@@ -72,7 +72,7 @@ TEST(Surface, NormalsFollowANonUniformScale) {
   }
 }
 
-// GT 46: catches a mirrored solid that is turned inside out.
+// Catches a mirrored solid that is turned inside out.
 TEST(Surface, AMirroredSolidKeepsItsOutside) {
   for (const Vec3f& s :
        {Vec3f(1, 1, 1), Vec3f(-1, 1, 1), Vec3f(1, -2, 1), Vec3f(-1, -1, -3), Vec3f(2, -1, -1)}) {
@@ -119,7 +119,7 @@ TEST(Surface, RayOriginsLieOnTheSideOfTheRay) {
   }
 }
 
-// --- Degenerate input (GT 50) ---
+// --- Degenerate input ---
 
 void expect_finite(const Surface& s) {
   EXPECT_TRUE(is_finite(s.p) && is_finite(s.ng) && is_finite(s.frame.x) && is_finite(s.frame.y) &&
@@ -137,7 +137,7 @@ TEST(Surface, OfADegenerateTriangleIsFinite) {
   expect_near(surface_of(opposed, {0, 0, -1}, hit_at(0.5f, 0)).frame.z, {0, 0, 1});
 }
 
-// GT 43, 45: the square of the cross product of short or long edges leaves the range of float.
+// The square of the cross product of short or long edges leaves the range of float.
 TEST(Surface, NormalsOfTinyAndHugeTrianglesAreUnit) {
   for (const float size : {1e-12f, 1e-11f, 1e-10f, 1e-8f, 1e-4f, 1.0f, 1e4f, 1e8f, 1e10f})
     for (const bool scaled : {false, true}) {
@@ -238,15 +238,47 @@ TEST(NormalMap, WithoutTangentsOrUvsIsLeftOut) {
   expect_finite(surface_of(black, {0, 0, -1}));
 }
 
+// A normal that deviates by tan d = .75, and 2 / (1 + sqrt(1 + .75^2 / 8 tan^2 theta)) by hand. Catches
+// shadowing by the angle to the mapped normal, a lost side, and light from below.
+TEST(NormalMap, BumpsShadowEachOther) {
+  const struct {
+    float theta;
+    double share;
+  } cases[] = {{0, 1}, {kPi / 4, 0.98301}, {kPi / 3, 0.95219}, {1.4f, 0.70571}, {1.55f, 0.14505}};
+  for (const float side : {1.0f, -1.0f}) {
+    const Surface s = surface_of(make_mapped({204, 128, 230}, false, false), Vec3f(0, 0, -side));
+    ASSERT_TRUE(s.bumpy);
+    for (const auto& c : cases) {
+      const Vec3f w(std::sin(c.theta), 0, std::cos(c.theta));
+      EXPECT_NEAR(bump_shadowing(s, w * side), c.share, 0.01) << c.theta;
+      // What is transmitted alike.
+      EXPECT_NEAR(bump_shadowing(s, -w * side), c.share, 0.01) << c.theta;
+    }
+    EXPECT_EQ(bump_shadowing(s, Vec3f(1, 0, 0) * side), 0);
+    EXPECT_EQ(bump_shadowing(s, normalize(Vec3f(1, 0, -0.1f)) * side), 0);
+    EXPECT_EQ(bump_shadowing(s, normalize(Vec3f(-1, 0, 0.1f)) * side), 0);
+  }
+  const Surface flat = surface_of(make_mapped({128, 128, 255}, false, false), {0, 0, -1});
+  EXPECT_NEAR(bump_shadowing(flat, normalize(Vec3f(1, 0, 0.1f))), 1, 1e-3);
+}
+
+// What mirrors or refracts has its normal bent instead.
+TEST(NormalMap, BumpsOfWhatMirrorsDoNotShadow) {
+  Scene scene = make_mapped({204, 128, 230}, false, false);
+  scene.materials[0].conductor.emplace();
+  EXPECT_FALSE(surface_of(scene, {0, 0, -1}).bumpy);
+  EXPECT_FALSE(surface_of(make_scene(kTriangle), {0, 0, -1}).bumpy);
+}
+
 // --- Emission and coverage ---
 
 TEST(EvalEmission, MultipliesTheSrgbTexture) {
   Scene scene;
   Material m = make_emitter({2, 4, 8});
   const std::array<Vec2f, 2> uvs{Vec2f(0.5f, 0.5f), Vec2f(0.5f, 0.5f)};
-  EXPECT_EQ(eval_emission(scene, m, uvs), Rgb(2, 4, 8));
+  EXPECT_EQ(eval_emission(scene, m, uvs, 1), Rgb(2, 4, 8));
   m.emission_texture = add_texture(scene, make_image<std::uint8_t>(1, 1, 3, PixelType::u8, {255, 188, 0}));
-  expect_near(eval_emission(scene, m, uvs), {2, 4 * 0.502886f, 0});
+  expect_near(eval_emission(scene, m, uvs, 1), {2, 4 * 0.502886f, 0});
 }
 
 // glTF 2.0, 3.9.4: alpha is factor x texture x vertex colour; MASK cuts at alpha >= cutoff.

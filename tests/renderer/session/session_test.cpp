@@ -19,7 +19,7 @@ struct Threads {
   ~Threads() { set_thread_count(hardware_threads()); }
 };
 
-// GT 56. Caught: a sampler that goes on from pixel to pixel, sums in the order in which tiles end.
+// Caught: a sampler that goes on from pixel to pixel, sums in the order in which tiles end.
 TEST(Session, ThePictureDoesNotDependOnThreadsOrTiles) {
   RenderSettings settings = small();
   const Picture reference = render_everything(settings);

@@ -83,7 +83,7 @@ class Numbers {
   std::uint32_t count_ = 0;
 };
 
-// GT 40, 41. The reference knows no quadratic: it looks for where the depth of the point changes its sign, so
+// The reference knows no quadratic: it looks for where the depth of the point changes its sign, so
 // a wrong formula cannot agree with it by sharing its mistake. Caught: the naive discriminant from 100 radii
 // on, a missing cap, the wrong nappe, an unstable root.
 TEST(SolidIntersect, AgreesWithASearchInLongDoubleAtEveryDistance) {
@@ -147,7 +147,7 @@ void expect_sound(const Solid& solid, const Vec3d& o, const Vec3d& d, const std:
   }
 }
 
-// GT 42: lines along the axes, along generators, through apex and rims, tangent, from on and inside the
+// Lines along the axes, along generators, through apex and rims, tangent, from on and inside the
 // surface, on a grid of origins and directions where all of these meet.
 TEST(SolidIntersect, DegenerateLinesGiveNoNaN) {
   for (const auto& [name, solid] : solids()) {

@@ -34,7 +34,7 @@ TEST(SphereDirections, FollowTheirDensity) {
   }
 }
 
-// GT 47. In double the solid angle is known; a density from 1 - cos is 7% off at 10^3 and infinite at 10^4.
+// In double the solid angle is known; a density from 1 - cos is 7% off at 10^3 and infinite at 10^4.
 TEST(SphereDirections, DensityIsExactFarAway) {
   for (const double ratio : {1.5, 1e1, 1e2, 1e3, 1e4, 1e5, 1e8}) {
     const auto p = Vec3f(Vec3d(ratio, 0, 0));

@@ -79,7 +79,7 @@ TEST(SolidArea, MatchesClosedForms) {
   EXPECT_NEAR(area(Sphere{2}), 16 * kPi, 1e-4);
   EXPECT_NEAR(area(Frustum{1, 1, 3}), 8 * kPi, 1e-4);
   EXPECT_NEAR(area(Frustum{3, 0, 4}), 24 * kPi, 1e-4);  // slant 5
-  // GT 46: a unit sphere stretched to (2, 1, 1).
+  // A unit sphere stretched to (2, 1, 1).
   EXPECT_NEAR(area(Solid(Sphere{1}), Affine{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {7, 7, 7}}), 21.478, 0.005);
   // A cylinder stretched along its axis, and mirrored.
   EXPECT_NEAR(area(Solid(Frustum{1, 1, 2}), Affine{{1, 0, 0}, {0, -3, 0}, {0, 0, 1}, {0, 0, 0}}),
