@@ -71,7 +71,7 @@ def print_costs(program: Path) -> None:
 
 
 def print_gains(rows: list[dict]) -> None:
-    print("\n| roughness | " + " | ".join(KINDS) + " |\n|---" * (len(KINDS) + 1) + "|")
+    print("\n| roughness | " + " | ".join(KINDS) + " |\n" + "|---" * (len(KINDS) + 1) + "|")
     for roughness in ROUGHNESS:
         cells = [next(r for r in rows if r["kind"] == kind and r["roughness"] == roughness) for kind in KINDS]
         print(f"| {roughness:g} | " + " | ".join(f"{c['single']:.3f}, {c['compensated']:.3f}" for c in cells) + " |")
