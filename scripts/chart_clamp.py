@@ -11,19 +11,15 @@ Markdown, and draws docs/clamp.svg. With --csv FILE nothing is rendered: the num
 matplotlib.
 """
 
-import argparse
 import math
 from pathlib import Path
 
-import matplotlib
+import numpy
 
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy  # noqa: E402
-
-from gltf_builder import Gltf  # noqa: E402
-from gltf_shapes import merge, quad  # noqa: E402
-from measured import CHARTS, ROOT, percent, read, references, relative_rmse, render, write  # noqa: E402
+from charts import add_grid, options, save, subplots
+from gltf_builder import Gltf
+from gltf_shapes import merge, quad
+from measured import CHARTS, ROOT, percent, read, references, relative_rmse, render, write
 
 CLAMPS = (0.5, 1, 2, 5, 10, 30, 100, math.inf)
 SEEDS = 8
@@ -109,8 +105,7 @@ def print_table(rows: list[dict]) -> None:
 
 
 def draw(rows: list[dict], out: Path) -> None:
-    plt.rcParams.update({"font.size": 8, "svg.fonttype": "path", "svg.hashsalt": "clamp"})
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.4))
+    figure, (left, right) = subplots(1, 2, figsize=(10, 3.4))
     places = range(len(CLAMPS))
     for name, (text, color, marker) in SCENES.items():
         points = [row for row in rows if row["scene"] == name]
@@ -121,8 +116,7 @@ def draw(rows: list[dict], out: Path) -> None:
     for axes in (left, right):
         axes.set_xticks(places, [label(clamp) for clamp in CLAMPS])
         axes.set_xlabel("--clamp")
-        axes.grid(True, which="major", color="#e4e4e4", linewidth=0.6)
-        axes.set_axisbelow(True)
+        add_grid(axes)
     left.set_ylabel("bias of the mean, %")
     left.set_yscale("symlog", linthresh=1)
     left.set_ylim(-90, 1)
@@ -132,18 +126,11 @@ def draw(rows: list[dict], out: Path) -> None:
     right.set_ylabel("error (RMS, relative)")
     right.set_yticks([0.03, 0.1, 0.3, 1, 3], ["3%", "10%", "30%", "100%", "300%"])
     right.minorticks_off()
-    handles, labels = right.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncol=len(SCENES), frameon=False)
-    figure.tight_layout(rect=(0, 0, 1, 0.93))
-    figure.savefig(out, metadata={"Date": None, "Creator": None})
+    save(figure, out, len(SCENES))
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/parian")
-    parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/clamp.svg")
-    arguments = parser.parse_args()
+    arguments = options(__doc__, "build/release/parian", "docs/clamp.svg").parse_args()
     rows = read(arguments.csv or measure(arguments.program), {"scene"})
     print_table(rows)
     draw(rows, arguments.out)

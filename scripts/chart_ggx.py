@@ -9,18 +9,13 @@ turns, the smallest of seven. Writes the gains to build/charts/ggx.csv. With --c
 left out. Needs numpy and matplotlib.
 """
 
-import argparse
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-from gltf_builder import Gltf  # noqa: E402
-from image_files import environment_hdr  # noqa: E402
-from measured import CHARTS, ROOT, read, render, write  # noqa: E402
+from charts import add_grid, options, save, subplots
+from gltf_builder import Gltf
+from image_files import environment_hdr
+from measured import CHARTS, ROOT, read, render, write
 
 ROUGHNESS = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
 MODES = ("single", "compensated")
@@ -78,8 +73,7 @@ def print_gains(rows: list[dict]) -> None:
 
 
 def draw(rows: list[dict], out: Path) -> None:
-    plt.rcParams.update({"svg.fonttype": "none", "font.family": "sans-serif", "svg.hashsalt": "parian"})
-    figure, axes = plt.subplots(figsize=(7, 4))
+    figure, axes = subplots(figsize=(8, 4))
     for kind, (color, _) in KINDS.items():
         mine = [row for row in rows if row["kind"] == kind]
         x = [row["roughness"] for row in mine]
@@ -87,23 +81,17 @@ def draw(rows: list[dict], out: Path) -> None:
         axes.plot(x, [row["compensated"] for row in mine], color=color, linestyle="--", label=f"{kind}, compensated")
     axes.set_xlabel("roughness")
     axes.set_ylabel("radiance of a white ball in a white furnace")
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(out, metadata={"Date": None})
+    add_grid(axes)
+    save(figure, out, len(KINDS), 0.9)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Charts what --ggx compensated gains and costs.")
-    parser.add_argument("--csv", type=Path, help="numbers of an earlier run")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/ggx.svg")
-    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/parian")
-    options = parser.parse_args()
-    rows = read(options.csv or measure(options.program), {"kind"})
-    if not options.csv:
-        print_costs(options.program)
+    arguments = options(__doc__, "build/release/parian", "docs/ggx.svg").parse_args()
+    rows = read(arguments.csv or measure(arguments.program), {"kind"})
+    if not arguments.csv:
+        print_costs(arguments.program)
     print_gains(rows)
-    draw(rows, options.out)
+    draw(rows, arguments.out)
 
 
 if __name__ == "__main__":

@@ -10,17 +10,12 @@ tables in Markdown, and draws docs/lights.svg. With --csv FILE nothing is render
 numpy and matplotlib.
 """
 
-import argparse
 import math
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-from make_lights import room  # noqa: E402
-from measured import CHARTS, ROOT, percent, read, references, relative_rmse, render, write  # noqa: E402
+from charts import add_grid, options, save, subplots
+from make_lights import room
+from measured import CHARTS, percent, read, references, relative_rmse, render, write
 
 COUNTS = (10, 100, 1000, 10000)
 SIZE = ["--size", "128x96"]
@@ -88,14 +83,12 @@ def print_tables(rows: list[dict]) -> None:
 
 
 def draw(rows: list[dict], out: Path) -> None:
-    plt.rcParams.update({"font.size": 8, "svg.fonttype": "path", "svg.hashsalt": "lights"})
     columns = counts(rows)
-    figure, grid = plt.subplots(1, len(columns), figsize=(10, 3.4), sharex=True, sharey=True, squeeze=False)
+    figure, grid = subplots(1, len(columns), figsize=(10, 3.4), sharex=True, sharey=True, squeeze=False)
     for axes, lights in zip(grid[0], columns):
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.grid(True, which="major", color="#e4e4e4", linewidth=0.6)
-        axes.set_axisbelow(True)
+        add_grid(axes)
         axes.minorticks_off()
         for choice, (label, color, marker) in CHOICES.items():
             points = curve(rows, lights, choice)
@@ -106,18 +99,11 @@ def draw(rows: list[dict], out: Path) -> None:
         axes.set_title(f"{lights:,.0f} lights", fontsize=10)
         axes.set_xlabel("CPU seconds")
     grid[0][0].set_ylabel("error (RMS, relative)")
-    handles, labels = grid[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncol=len(CHOICES), frameon=False)
-    figure.tight_layout(rect=(0, 0, 1, 0.93))
-    figure.savefig(out, metadata={"Date": None, "Creator": None})
+    save(figure, out, len(CHOICES))
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/parian")
-    parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/lights.svg")
-    arguments = parser.parse_args()
+    arguments = options(__doc__, "build/release/parian", "docs/lights.svg").parse_args()
     rows = read(arguments.csv or measure(arguments.program), {"choice"})
     print_tables(rows)
     draw(rows, arguments.out)

@@ -7,16 +7,11 @@ Runs PROGRAM (default build/release/shape_stability), writes what it prints to P
 and draws docs/stability.svg. With --csv FILE nothing is run: the numbers are those of FILE. Needs matplotlib.
 """
 
-import argparse
 from decimal import Decimal
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-from measured import measure, percent, read  # noqa: E402
+from charts import add_grid, options, save, subplots
+from measured import measure, percent, read
 
 ROOT = Path(__file__).resolve().parent.parent
 METHODS = {
@@ -82,36 +77,29 @@ def draw_error(axes, rows: list[dict], shape: str) -> None:
 
 
 def draw(rows: list[dict], out: Path) -> None:
-    plt.rcParams.update({"font.size": 8, "svg.fonttype": "path", "svg.hashsalt": "stability"})
     shapes = list(dict.fromkeys(row["shape"] for row in rows))
-    figure, grid = plt.subplots(2, len(shapes), figsize=(10, 6), sharex=True, sharey="row")
+    figure, grid = subplots(2, len(shapes), figsize=(10, 6), sharex=True, sharey="row")
     for column, shape in enumerate(shapes):
         for axes, plot in zip(grid[:, column], (draw_wrong, draw_error)):
             axes.set_xscale("log")
             axes.set_yscale("log")
-            axes.grid(True, which="major", color="#e4e4e4", linewidth=0.6)
-            axes.set_axisbelow(True)
+            add_grid(axes)
             axes.minorticks_off()
             plot(axes, rows, shape)
         grid[0, column].set_title(shape, fontsize=10)
         grid[1, column].set_xlabel("distance d / R")
     grid[0, 0].set_ylabel("wrong hit or miss")
     grid[1, 0].set_ylabel("position error / R: largest; dotted: mean")
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncol=len(METHODS), frameon=False)
-    figure.tight_layout(rect=(0, 0, 1, 0.96))
-    figure.savefig(out, metadata={"Date": None, "Creator": None})
+    save(figure, out, len(METHODS), 0.96)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=Path, default=ROOT / "build/release/shape_stability")
+    parser = options(__doc__, "build/release/shape_stability", "docs/stability.svg")
     parser.add_argument("--rays", type=int, help="for each solid and distance (default: the program's)")
-    parser.add_argument("--csv", type=Path, help="use these numbers instead of measuring")
     arguments = parser.parse_args()
     rows = read(arguments.csv or measure(arguments.program, arguments.rays), {"shape", "method"})
     print_tables(rows)
-    draw(rows, ROOT / "docs/stability.svg")
+    draw(rows, arguments.out)
 
 
 if __name__ == "__main__":
