@@ -73,7 +73,7 @@ BsdfValue Layered::eval(const Vec3f& wo, const Vec3f& wi, const std::array<float
     value.pdf += share[part] * pdf;
   };
   const BsdfValue base = diffuse.eval(wo, wi);
-  GgxAlbedo o, i;
+  GgxAlbedo o{}, i{};
   if (compensation) {
     o = compensation->bounces.row.at(wo.z);
     i = compensation->bounces.row.at(std::abs(wi.z));
