@@ -74,24 +74,10 @@ TEST(Ggx, SamplesVisibleNormalsWithTheirDensity) {
     }
 }
 
-// Every normal is unit, faces wo, and lies above the surface, at the corners of the square too.
 TEST(Ggx, StaysFiniteForSmallAlphaAndGrazingAngles) {
   for (const float alpha : {Ggx::kMinAlpha, 1e-3f, 0.1f, 1.0f})
-    for (const float cosine : {1.0f, 0.1f, 1e-2f, 1e-3f, 1e-4f, 1e-6f}) {
-      const Ggx ggx{alpha};
-      const Vec3f wo = at_cosine(cosine);
-      TestRandom random(3);
-      for (int i = 0; i < 2000; ++i) {
-        const float corners[] = {0, 0.5f, kBelowOne};
-        const Vec2f u = i < 9 ? Vec2f(corners[i / 3], corners[i % 3]) : random.next2();
-        const Vec3f h = ggx.sample_visible_normal(wo, u);
-        ASSERT_NEAR(h.length(), 1, 1e-5);
-        ASSERT_GE(h.z, 0);
-        ASSERT_GE(wo.dot(h), -1e-6f);
-        ASSERT_TRUE(std::isfinite(ggx.d(h)) && std::isfinite(ggx.pdf_visible_normal(wo, h)));
-        ASSERT_TRUE(ggx.g2(wo, wo) >= 0 && ggx.g2(wo, wo) <= 1);
-      }
-    }
+    for (const float cosine : {1.0f, 0.1f, 1e-2f, 1e-3f, 1e-4f, 1e-6f})
+      expect_finite_facets(Ggx{alpha}, cosine);
 }
 
 }  // namespace

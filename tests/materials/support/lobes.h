@@ -46,4 +46,22 @@ inline const GgxTruth kGgxTruths[] = {{0.5f, 1, 0.68785},
                                       {1, 0.5f, 0.45069},
                                       {0.1f, 1, 0.98830}};
 
+/// Facet normals as seen from wo, of a distribution isotropic or not: unit, facing wo, above the surface, and
+/// of finite density, at the corners of the square of random numbers too.
+template <class Facets>
+void expect_finite_facets(const Facets& facets, float cosine) {
+  const Vec3f wo = at_cosine(cosine);
+  TestRandom random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const float corners[] = {0, 0.5f, kBelowOne};
+    const Vec2f u = i < 9 ? Vec2f(corners[i / 3], corners[i % 3]) : random.next2();
+    const Vec3f h = facets.sample_visible_normal(wo, u);
+    ASSERT_NEAR(h.length(), 1, 1e-5);
+    ASSERT_GE(h.z, 0);
+    ASSERT_GE(wo.dot(h), -1e-6f);
+    ASSERT_TRUE(std::isfinite(facets.d(h)) && std::isfinite(facets.pdf_visible_normal(wo, h)));
+  }
+  ASSERT_TRUE(facets.g2(wo, wo) >= 0 && facets.g2(wo, wo) <= 1);
+}
+
 }  // namespace parian
