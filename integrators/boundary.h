@@ -26,7 +26,7 @@ inline float ior_of(const Medium* medium, float wavelength) {
   return medium ? eval_ior(*medium, wavelength) : 1;
 }
 
-/// The share of light that is left after a distance in metres, which may be infinite.
+/// The share of light that is left, and not scattered, after a distance in metres, which may be infinite.
 Rgb transmittance(const Medium* medium, float distance);
 
 }  // namespace parian

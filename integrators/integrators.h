@@ -15,8 +15,22 @@ namespace parian {
 /// three.
 enum class Strategy : std::uint8_t { mis, light, bsdf };
 
+/// What light does inside a body that scatters it: a random walk, the truth; diffusion by one of the models
+/// (materials/diffusion.h) where the body is dense; by place the cheaper of the two that is near enough to
+/// the truth; or, as a first look, all comes out where it went in.
+enum class Subsurface : std::uint8_t {
+  automatic,
+  random_walk,
+  dipole,
+  better_dipole,
+  burley,
+  photon_beam,
+  off
+};
+
 struct IntegratorSettings {
   Strategy strategy = Strategy::mis;
+  Subsurface subsurface = Subsurface::automatic;
   Microfacets microfacets = Microfacets::compensated;
   int max_depth = 100;           // scattering events of a path at most
   float clamp = kInfinity;       // radiance of a path at most, by its largest component; biased where finite

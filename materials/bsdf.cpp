@@ -175,9 +175,12 @@ Layered make_layered(const Scene& scene, const Surface& s, const Rgb& base, floa
   if (m.phong) return Phong{m.phong->diffuse, m.phong->specular, m.phong->exponent};
   const float roughness = eval_roughness(scene, s);
   if (m.conductor) return finished(Conductor{m.conductor->eta, m.conductor->k, {to_mirror_alpha(roughness)}});
-  const float metallic = scaled(scene, s, m.metallic_roughness_texture, 2, m.metallic);
-  const float transmission =
-      m.transmission ? scaled(scene, s, m.transmission->texture, 0, m.transmission->factor) : 0;
+  // All that a body which scatters inside does not reflect goes in.
+  const float metallic = m.subsurface ? 0 : scaled(scene, s, m.metallic_roughness_texture, 2, m.metallic);
+  const float transmission = m.subsurface ? 1
+                             : m.transmission
+                                 ? scaled(scene, s, m.transmission->texture, 0, m.transmission->factor)
+                                 : 0;
   if (!is_layered(m) && transmission == 1 && metallic == 0)
     return finished(make_dielectric(scene, s, base, to_mirror_alpha(roughness), eta));
   if (!is_layered(m) && transmission == 0) {

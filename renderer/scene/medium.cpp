@@ -10,16 +10,37 @@ namespace {
 // Nothing is left after 1e-28 m, and, being finite, all is left after 0.
 constexpr float kMostAbsorption = 1e30f;
 
+/// The share of attenuation that is scattering in a volume of a multi-scatter colour
+/// (KHR_materials_volume_scatter, after Kulla and Conty 2017), by similarity where it is not isotropic.
+float scattering_albedo(float color, float anisotropy) {
+  const float s =
+      4.09712f + 4.20863f * color - std::sqrt(9.59217f + 41.6808f * color + 17.7126f * color * color);
+  const float isotropic = std::clamp(1 - s * s, 0.0f, 1.0f);
+  return isotropic / (1 - anisotropy + anisotropy * isotropic);
+}
+
 }  // namespace
 
-Medium make_medium(const Material& material) {
-  const Volume& volume = *material.volume;
-  Rgb absorption(0, 0, 0);
-  if (volume.attenuation_distance > 0)
-    for (int k = 0; k < 3; ++k)
-      absorption[k] =
-          std::min(-std::log(volume.attenuation_color[k]) / volume.attenuation_distance, kMostAbsorption);
-  return {material.ior, material.dispersion, absorption, material.priority};
+Medium make_medium(const Material& m) {
+  Medium medium{m.ior, m.dispersion, Rgb(0, 0, 0), m.priority};
+  medium.dense = m.subsurface || m.diffuse_transmission;
+  if (m.subsurface) {
+    medium.absorption = m.subsurface->absorption;
+    medium.scattering = m.subsurface->reduced_scattering;
+    return medium;
+  }
+  const Volume& volume = *m.volume;
+  if (volume.attenuation_distance <= 0) return medium;
+  for (int k = 0; k < 3; ++k) {
+    const float extinction =
+        std::min(-std::log(volume.attenuation_color[k]) / volume.attenuation_distance, kMostAbsorption);
+    const float albedo =
+        m.scatter ? scattering_albedo(m.scatter->multiscatter_color[k], m.scatter->anisotropy) : 0;
+    medium.scattering[k] = extinction * albedo;
+    medium.absorption[k] = extinction * (1 - albedo);
+  }
+  if (m.scatter) medium.anisotropy = m.scatter->anisotropy;
+  return medium;
 }
 
 float eval_ior(const Medium& medium, float wavelength) {

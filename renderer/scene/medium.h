@@ -12,13 +12,25 @@ namespace parian {
 struct Medium {
   float ior;         // at the d line, 587.6 nm; against vacuum
   float dispersion;  // 20 over the Abbe number; 0: all wavelengths alike
-  Rgb absorption;    // per metre: radiance falls as exp(-absorption distance)
+  Rgb absorption;    // per metre
   int priority;
+  Rgb scattering{0, 0, 0};  // per metre
+  float anisotropy = 0;     // mean cosine of a scattering (Henyey and Greenstein)
+  // Its makers say that light in it is scattered so often that diffusion describes it.
+  bool dense = false;
+
+  bool scatters() const { return max_component(scattering) > 0; }
+  /// Per metre: what has not been scattered falls as exp(-extinction distance).
+  Rgb extinction() const { return absorption + scattering; }
+  /// The scattering coefficient that without anisotropy would diffuse light alike (similarity).
+  Rgb reduced_scattering() const { return scattering * (1 - anisotropy); }
   bool operator==(const Medium&) const = default;
 };
 
-/// That of a material with has_interior(). KHR_materials_volume: absorption = -ln(color) / distance; a colour
-/// of 0 lets nothing through.
+/// That of a material with has_interior(). KHR_materials_volume: extinction = -ln(color) / distance; a colour
+/// of 0 lets nothing through. KHR_materials_volume_scatter: the share of it that is scattering is such that a
+/// thick body with isotropic scattering reflects the multi-scatter colour (that extension's formula), and
+/// with anisotropy the same (similarity).
 Medium make_medium(const Material& material);
 
 /// Index of refraction at a wavelength in nanometres; that of the d line where wavelength is 0. Cauchy's

@@ -62,13 +62,20 @@ struct Transmission {
   bool operator==(const Transmission&) const = default;
 };
 
-/// KHR_materials_volume. The surface bounds a homogeneous volume where thickness is above 0, and is
-/// thin-walled where it is 0.
+/// KHR_materials_volume. The surface bounds a homogeneous volume where thickness is above 0 or the volume
+/// scatters, and is thin-walled otherwise.
 struct Volume {
   float thickness = 0;
   Rgb attenuation_color{1, 1, 1};
   float attenuation_distance = 0;  // metres after which white light has the colour; 0: no attenuation
   bool operator==(const Volume&) const = default;
+};
+
+/// KHR_materials_volume_scatter: the attenuation of the volume is by scattering too.
+struct VolumeScatter {
+  Rgb multiscatter_color{0, 0, 0};  // what a thick body of it reflects, in [0, 1]
+  float anisotropy = 0;             // mean cosine of a scattering, in (-1, 1)
+  bool operator==(const VolumeScatter&) const = default;
 };
 
 /// KHR_materials_diffuse_transmission.
@@ -130,6 +137,13 @@ struct ConductorModel {
   bool operator==(const ConductorModel&) const = default;
 };
 
+/// PARIAN_materials_subsurface: a body that scatters light below an interface of the material's ior and
+/// roughness, in place of metallic-roughness. Per metre.
+struct SubsurfaceModel {
+  Rgb absorption{0, 0, 0}, reduced_scattering{0, 0, 0};
+  bool operator==(const SubsurfaceModel&) const = default;
+};
+
 /// glTF's metallic-roughness material with its extensions. Colours are linear; a texture multiplies its
 /// factor.
 struct Material {
@@ -150,13 +164,15 @@ struct Material {
   TextureRef specular_color_texture;  // sRGB
   std::optional<Transmission> transmission;
   std::optional<Volume> volume;
+  std::optional<VolumeScatter> scatter;  // of the volume
   std::optional<DiffuseTransmission> diffuse_transmission;
   std::optional<Clearcoat> clearcoat;
   std::optional<SheenModel> sheen;
   std::optional<Anisotropy> anisotropy;
   std::optional<Iridescence> iridescence;
-  std::optional<PhongModel> phong;  // at most one of phong and conductor
+  std::optional<PhongModel> phong;  // at most one of phong, conductor and subsurface
   std::optional<ConductorModel> conductor;
+  std::optional<SubsurfaceModel> subsurface;
   float dispersion = 0;  // KHR_materials_dispersion: 20 over the Abbe number; of a volume
   int priority = 0;      // PARIAN_materials_priority: where volumes overlap, the highest is there
   AlphaMode alpha_mode = AlphaMode::opaque;
@@ -166,7 +182,8 @@ struct Material {
 
   /// Whether its surface bounds a volume that light enters.
   bool has_interior() const {
-    return volume && volume->thickness > 0 && (transmission || diffuse_transmission);
+    if (subsurface) return true;
+    return volume && (volume->thickness > 0 || scatter) && (transmission || diffuse_transmission);
   }
   /// Whether what it emits depends on place or direction.
   bool emission_varies() const { return emission_texture || clearcoat; }

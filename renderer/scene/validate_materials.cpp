@@ -122,6 +122,16 @@ void check_group(const ConductorModel& c, const GroupCheck& check) {
   check.open_color(c.k, "k");
 }
 
+void check_group(const VolumeScatter& v, const GroupCheck& check) {
+  check.color(v.multiscatter_color, "multiscatter_color");
+  if (!(std::abs(v.anisotropy) < 1)) check.fail("anisotropy", "expected a number between -1 and 1");
+}
+
+void check_group(const SubsurfaceModel& s, const GroupCheck& check) {
+  check.open_color(s.absorption, "absorption");
+  check.open_color(s.reduced_scattering, "reduced_scattering");
+}
+
 void check_material(const Material& m, const GroupCheck& check) {
   check_base(m, check);
   const auto group = [&](const auto& value, const char* name) {
@@ -129,6 +139,7 @@ void check_material(const Material& m, const GroupCheck& check) {
   };
   group(m.transmission, "transmission");
   group(m.volume, "volume");
+  group(m.scatter, "scatter");
   group(m.diffuse_transmission, "diffuse_transmission");
   group(m.clearcoat, "clearcoat");
   group(m.sheen, "sheen");
@@ -136,7 +147,11 @@ void check_material(const Material& m, const GroupCheck& check) {
   group(m.iridescence, "iridescence");
   group(m.phong, "phong");
   group(m.conductor, "conductor");
+  group(m.subsurface, "subsurface");
   if (m.phong && m.conductor) check.fail("phong", "expected none beside conductor");
+  if (m.subsurface && (m.phong || m.conductor))
+    check.fail("subsurface", "expected none beside phong or conductor");
+  if (m.scatter && !m.volume) check.fail("scatter", "expected none without a volume");
   check.at_least(0, m.dispersion, "dispersion");
 }
 

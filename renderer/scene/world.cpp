@@ -37,9 +37,9 @@ Part make_part(const Scene& scene, const Primitive* primitive, int material) {
           .needs_tangent = m.normal_texture || (m.anisotropy && m.anisotropy->strength > 0) ||
                            (m.clearcoat && m.clearcoat->normal_texture),
           .emissive = !is_black(m.emission) && !m.unlit,
-          .bends = m.transmission || m.conductor,
+          .bends = m.transmission || m.conductor || m.subsurface,
           .extended = m.transmission || m.diffuse_transmission || m.clearcoat || m.sheen || m.anisotropy ||
-                      m.iridescence || m.phong || m.conductor,
+                      m.iridescence || m.phong || m.conductor || m.subsurface,
           .medium = kNone,
           .alpha = has_alpha(m, colored),
           .bounds = {}};
