@@ -14,7 +14,7 @@ std::optional<Boundary> find_boundary(const TraceContext& context, const MediumS
   const Vec3f n = surface.front ? surface.ng : -surface.ng;
   std::array<Hit, 16> near;
   const std::size_t count = context.accel.crossings({surface.p + n * reach, -n, 2 * reach}, random, near);
-  for (const Hit& other : std::span(near).first(count)) {
+  for (const Hit& other : std::span(near).first(std::min(count, near.size()))) {
     if (other.placement == Hit::kAreaLightHit) continue;
     const Medium* const its = world.medium(hit_part(world, other));
     if (other.placement == hit.placement && its == medium) continue;

@@ -2,7 +2,9 @@
 
 #include "integrators/boundary.h"
 #include "integrators/features.h"
+#include "integrators/random_walk.h"
 #include "materials/dispersion.h"
+#include "materials/subsurface_exit.h"
 #include "renderer/base/sampling.h"
 
 namespace parian {
@@ -12,6 +14,9 @@ namespace {
 // 1e-6.
 constexpr float kShadowEnd = 1 - 1e-5f;
 
+// In units of the diffusion length: how deep a body must be for diffusion to take the place of a walk.
+constexpr float kBroad = 8;
+
 /// One path as it grows: its last ray and what that met are those of `camera`. `pdf` is the density per solid
 /// angle of the ray's direction; infinite for the camera's, which no light sample competes with.
 struct Path {
@@ -19,7 +24,6 @@ struct Path {
   Rgb weight;
   float pdf;
   Receiver from;  // where it scattered last; not set where pdf is infinite
-  Rgb direct;     // what the last surface gets straight from a light, unless something lies between
   // In a world with media:
   MediumStack media;  // around the path
   // An interface keeps L / n^2, not L: what the path finds counts as much as (n at the camera / n here)^2.
@@ -39,13 +43,22 @@ struct Numbers {
   Vec2f light, direction;
 };
 
+/// What media a world has.
+enum class Volumes : std::uint8_t { none, clear, scattering };
+
+/// What becomes of light that goes into a body.
+enum class Inside : std::uint8_t { travels, diffuses, returns };
+
 /// The steps of paths that grow side by side, in a world with media or without: one without has none of their
 /// code in its way.
-template <bool kMedia>
+template <Volumes kVolumes>
 class Tracer {
  public:
-  Tracer(const TraceContext& context, const IntegratorSettings& settings, RayCounts& counts)
-      : context_(context), settings_(settings), counts_(counts) {}
+  static constexpr bool kMedia = kVolumes != Volumes::none, kScattering = kVolumes == Volumes::scattering;
+
+  Tracer(const TraceContext& context, const IntegratorSettings& settings,
+         std::span<const DiffuseMedium> diffuse_media, RayCounts& counts)
+      : context_(context), settings_(settings), diffuse_media_(diffuse_media), counts_(counts) {}
 
   void set_out(Path& path, CameraPath& camera) const {
     path.camera = &camera;
@@ -61,7 +74,7 @@ class Tracer {
   /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
   /// light that it samples, and where it goes. False where it ends.
   bool arrive(Path& path, int depth, const Numbers& numbers) {
-    if constexpr (kMedia) path.weight *= transmittance(path.media.current(), path.distance());
+    if constexpr (kMedia) absorb(path);
     const Rgb carried = kMedia ? path.weight * path.scale : path.weight;
     Rgb& radiance = path.camera->radiance;
     // A ray that leaves the scene, or ends at a light without a surface, brings what it sees there.
@@ -74,6 +87,7 @@ class Tracer {
       return false;
     }
     Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
+    if (kMedia && surface.part->inside_out) turn(surface);
     std::optional<Boundary> boundary;
     if (kMedia && surface.part->medium != kNone) {
       boundary =
@@ -91,12 +105,8 @@ class Tracer {
     // Scatter: light sampled directly, then a direction to go on.
     const float eta = boundary ? relative_ior(path, *boundary) : 1;
     const Bsdf bsdf = make_bsdf(context_.scene, surface, settings_.microfacets, eta);
-    path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
-                 bsdf.transmits() ? Vec3f(0) : surface.frame.z};
-    if (!context_.lights.empty())
-      sample_direct_light(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers.light);
-    if (!scatter(path, surface, bsdf, numbers.direction)) return false;
-    if (boundary && bsdf.beyond(path.ray().d)) enter(path, *boundary);
+    if (!scatter(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers)) return false;
+    if (boundary && bsdf.beyond(path.ray().d) && !enter(path, depth, surface, *boundary)) return false;
     return survive(path);
   }
 
@@ -106,17 +116,39 @@ class Tracer {
     counts_.shadow += shadow_rays_.count;
     const std::uint32_t blocked = context_.accel.occluded(shadow_rays_);
     for (int i = 0; i < shadow_rays_.count; ++i)
-      if (!(blocked >> i & 1)) waiting_[i]->camera->radiance += waiting_[i]->direct;
+      if (!(blocked >> i & 1)) waiting_[i]->camera->radiance += direct_[i];
     shadow_rays_.count = 0;
   }
 
   /// Follows a path to what it meets next.
   void follow(Path& path) {
+    if constexpr (kScattering)
+      if (const Medium* medium = path.media.current(); medium && medium->scatters())
+        return wander(path, *medium);
     ++counts_.scattered;
     context_.accel.intersect(path.ray(), path.sampler().key(), path.camera->hit);
   }
 
  private:
+  /// What the medium takes away on the last ray. (A walk has weighed that already.)
+  void absorb(Path& path) const {
+    const Medium* const medium = path.media.current();
+    if (kScattering && medium && medium->scatters()) return;
+    path.weight *= transmittance(medium, path.distance());
+  }
+
+  /// Follows a path through a medium that scatters it, to what it meets next; one that is absorbed meets
+  /// nothing and carries nothing. Light is not sampled on the way: in most bodies their own surface hides it.
+  void wander(Path& path, const Medium& medium) {
+    const Walk result =
+        walk(context_, medium, path.camera->ray, path.camera->hit, path.weight, path.sampler(), counts_);
+    if (result == Walk::straight) return;
+    path.pdf = kInfinity;
+    if (result == Walk::scattered) return;
+    path.weight = Rgb(0, 0, 0);
+    path.camera->hit.placement = Hit::kMiss;
+  }
+
   /// Goes on where there is no boundary. No light sample could have found what comes: its ray ended here.
   bool pass(Path& path, const Surface& surface, const Boundary& boundary) const {
     constexpr int kMost = 1000;
@@ -145,9 +177,70 @@ class Tracer {
     return ratio * ratio;
   }
 
-  void enter(Path& path, const Boundary& boundary) const {
+  /// Goes through a boundary; false where the path ends.
+  bool enter(Path& path, int depth, const Surface& surface, const Boundary& boundary) {
+    if (kScattering && hides(&boundary)) {
+      const DiffuseMedium& medium = diffuse_media_[std::size_t(surface.part->medium)];
+      const Inside inside = choose_inside(path, surface, medium, boundary);
+      if (depth == 0)
+        (inside == Inside::travels ? path.camera->features.walked : path.camera->features.diffused) = 1;
+      if (inside != Inside::travels) return emerge(path, surface, medium, inside);
+      path.pdf = kInfinity;  // what is inside, no light sample could have found
+    }
     path.media = boundary.beyond;
     path.scale = scale_in(path, boundary.after);
+    return true;
+  }
+
+  /// Whether light is not sampled through a boundary, since what is behind is dense.
+  static bool hides(const Boundary* boundary) {
+    return boundary && boundary->after && boundary->after->dense && boundary->after->scatters();
+  }
+
+  /// What light does in a dense body that it enters at `surface`. Diffusion knows no other bodies, so it is
+  /// for those in vacuum.
+  Inside choose_inside(Path& path, const Surface& surface, const DiffuseMedium& medium,
+                       const Boundary& boundary) const {
+    // What stays below the rounding of the place comes back from there.
+    constexpr float kResolved = 16;
+    if (settings_.subsurface == Subsurface::off || medium.free_path < kResolved * surface.offset)
+      return Inside::returns;
+    if (settings_.subsurface == Subsurface::random_walk || boundary.before) return Inside::travels;
+    if (settings_.subsurface != Subsurface::automatic) return Inside::diffuses;
+    return is_broad(path, surface, medium) ? Inside::diffuses : Inside::travels;
+  }
+
+  /// Whether nothing is as near below the surface, in a direction by chance, as would make diffusion wrong.
+  /// The share of the directions in which something is grows smoothly from broad to thin parts, and so does
+  /// the share of walks.
+  bool is_broad(Path& path, const Surface& surface, const DiffuseMedium& medium) const {
+    const float depth = kBroad * medium.diffusion_length;
+    if (!(depth < kInfinity)) return false;
+    const Frame frame = make_frame(surface.front ? -surface.ng : surface.ng);
+    const Vec3f d = frame.to_world(sample_cosine_hemisphere(path.sampler().next2()));
+    ++counts_.shadow;
+    return !context_.accel.occluded({ray_origin(surface, d), d, depth}, path.sampler().key());
+  }
+
+  /// Goes on from where the light that went in at `surface` comes out of the body; false where the path ends.
+  bool emerge(Path& path, const Surface& surface, const DiffuseMedium& medium, Inside inside) {
+    if (inside == Inside::returns) {
+      path.weight *= medium.reflectance;
+      return leave(path, surface, medium);
+    }
+    ++counts_.scattered;
+    const std::optional<Emergence> place =
+        sample_emergence(context_, medium, surface, path.hit(), path.weight, path.sampler());
+    if (!place) return false;
+    path.weight *= place->weight;
+    return leave(path, place->surface, medium);
+  }
+
+  bool leave(Path& path, const Surface& surface, const DiffuseMedium& medium) {
+    const Bsdf bsdf(surface, SubsurfaceExit{surface.part->material->ior, medium.inverse_c,
+                                            eval_crossing_tint(context_.scene, surface)});
+    const Vec2f light = path.sampler().next2();
+    return scatter(path, surface, bsdf, nullptr, {light, path.sampler().next2()});
   }
 
   /// The weight of light that the path ran into, where sampling lights would have found it with density
@@ -192,12 +285,13 @@ class Tracer {
     const std::optional<LightSample> light = context_.lights.sample(path.from, u, path.sampler());
     if (!light) return;
     if (!light->delta && settings_.strategy == Strategy::bsdf) return;
+    if (kScattering && hides(boundary) && bsdf.beyond(light->wi)) return;
     const BsdfValue value = bsdf.eval(light->wi);
     if (is_black(value.f_cos)) return;
     const bool alone = light->delta || settings_.strategy == Strategy::light;
-    path.direct = path.weight * value.f_cos * light->radiance *
-                  (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
-    if (is_black(path.direct)) return;
+    Rgb direct = path.weight * value.f_cos * light->radiance *
+                 (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
+    if (is_black(direct)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
     if constexpr (kMedia) {
       const Medium* medium = path.media.current();
@@ -206,18 +300,30 @@ class Tracer {
         medium = boundary->after;
         scale = scale_in(path, medium);
       }
-      path.direct *=
+      direct *=
           transmittance(medium, light->at_infinity ? kInfinity : (light->target - origin).length()) * scale;
-      if (is_black(path.direct)) return;
+      if (is_black(direct)) return;
     }
+    // A path that enters a body and leaves it asks twice.
+    if (kScattering && shadow_rays_.count == RayPacket::kSize) add_direct_light();
     waiting_[shadow_rays_.count] = &path;
+    direct_[shadow_rays_.count] = direct;
     shadow_rays_.add(
         light->at_infinity ? Ray{origin, light->wi} : Ray{origin, light->target - origin, kShadowEnd},
         path.sampler().key());
   }
 
-  /// Goes on in a direction sampled from the BSDF; false where the path ends.
-  bool scatter(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) const {
+  /// Light sampled directly, and then a direction to go on, of the BSDF; false where the path ends.
+  bool scatter(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary* boundary,
+               const Numbers& numbers) {
+    const bool one_sided = !bsdf.transmits() || (kScattering && hides(boundary));
+    path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
+                 one_sided ? surface.frame.z : Vec3f(0)};
+    if (!context_.lights.empty()) sample_direct_light(path, surface, bsdf, boundary, numbers.light);
+    return sample_direction(path, surface, bsdf, numbers.direction);
+  }
+
+  bool sample_direction(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) const {
     const float choice = bsdf.has_choice() ? path.sampler().next1() : 0;
     const std::optional<BsdfSample> sample = bsdf.sample(choice, u);
     if (!sample) return false;
@@ -237,20 +343,24 @@ class Tracer {
 
   const TraceContext& context_;
   const IntegratorSettings& settings_;
+  std::span<const DiffuseMedium> diffuse_media_;
   RayCounts& counts_;
   RayPacket shadow_rays_;
-  std::array<Path*, RayPacket::kSize> waiting_;  // whose light the shadow rays ask about
+  // Whose light the shadow rays ask about, and how much it is unless something lies between.
+  std::array<Path*, RayPacket::kSize> waiting_;
+  std::array<Rgb, RayPacket::kSize> direct_;
 };
 
 /// PathIntegrator::estimate().
-template <bool kMedia>
+template <Volumes kVolumes>
 void trace(const TraceContext& context, const IntegratorSettings& settings,
-           std::span<CameraPath> camera_paths, RayCounts& counts, bool features_wanted) {
+           std::span<const DiffuseMedium> diffuse_media, std::span<CameraPath> camera_paths,
+           RayCounts& counts, bool features_wanted) {
   std::array<Path, RayPacket::kSize> paths;
   std::array<Path*, RayPacket::kSize> growing;
   std::array<Sampler*, RayPacket::kSize> samplers;  // of the growing paths
   std::size_t count = 0;
-  Tracer<kMedia> tracer(context, settings, counts);
+  Tracer<kVolumes> tracer(context, settings, diffuse_media, counts);
   for (CameraPath& camera : camera_paths) {
     if (features_wanted && camera.hit.placement != Hit::kMiss)
       camera.features = hit_features(context, camera.hit, camera.ray.d);
@@ -285,10 +395,18 @@ void trace(const TraceContext& context, const IntegratorSettings& settings,
 
 }  // namespace
 
+void PathIntegrator::prepare(const World& world) {
+  diffuse_media_.clear();
+  if (std::ranges::any_of(world.media, &Medium::scatters))
+    diffuse_media_ = make_diffuse_media(world, settings_.subsurface);
+}
+
 void PathIntegrator::estimate(const TraceContext& context, std::span<CameraPath> camera_paths,
                               RayCounts& counts, bool features_wanted) const {
-  (context.world.media.empty() ? trace<false> : trace<true>)(context, settings_, camera_paths, counts,
-                                                             features_wanted);
+  const auto trace_volumes = !diffuse_media_.empty()       ? trace<Volumes::scattering>
+                             : context.world.media.empty() ? trace<Volumes::none>
+                                                           : trace<Volumes::clear>;
+  trace_volumes(context, settings_, diffuse_media_, camera_paths, counts, features_wanted);
 }
 
 }  // namespace parian

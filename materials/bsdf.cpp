@@ -231,6 +231,11 @@ Bsdf make_bsdf(const Scene& scene, const Surface& s, Microfacets microfacets, fl
   return Bsdf(s, microfacets == Microfacets::single ? lobe : make_compensated(lobe));
 }
 
+Rgb eval_crossing_tint(const Scene& scene, const Surface& s) {
+  const auto& diffuse = s.part->material->diffuse_transmission;
+  return diffuse ? scaled(scene, s, diffuse->color_texture, diffuse->color) : base_color_at(scene, s);
+}
+
 Rgb estimate_albedo(const Scene& scene, const Surface& s) {
   const Material& m = *s.part->material;
   const Rgb base = eval_base_color(scene, s);

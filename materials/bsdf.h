@@ -10,6 +10,7 @@
 #include "materials/layered.h"
 #include "materials/metallic_roughness.h"
 #include "materials/phong.h"
+#include "materials/subsurface_exit.h"
 #include "renderer/scene/surface.h"
 
 namespace parian {
@@ -20,7 +21,8 @@ namespace parian {
 /// transmitted is basic radiance (dielectric.h).
 class Bsdf {
  public:
-  using AnyLobe = std::variant<Lambert, MetallicRoughness, Phong, Conductor, Dielectric, Layered>;
+  using AnyLobe =
+      std::variant<Lambert, MetallicRoughness, Phong, Conductor, Dielectric, Layered, SubsurfaceExit>;
 
   /// The surface must outlive the BSDF.
   Bsdf(const Surface& surface, const AnyLobe& lobe) : surface_(surface), lobe_(lobe) {}
@@ -87,6 +89,10 @@ Bsdf make_bsdf(const Scene& scene, const Surface& surface, Microfacets microface
 
 /// The base colour at a surface, texture and vertex colour included.
 Rgb eval_base_color(const Scene& scene, const Surface& surface);
+
+/// What light is multiplied by as it goes through a surface into a body or out of it: the base colour, of
+/// KHR_materials_diffuse_transmission its own.
+Rgb eval_crossing_tint(const Scene& scene, const Surface& surface);
 
 /// The share of light from all directions that the surface reflects, roughly: base colour, plus what the coat
 /// reflects at normal incidence; of Phong both its terms, of a conductor what it reflects there. For the

@@ -395,9 +395,10 @@ std::uint32_t Accel::occluded(const RayPacket& rays) const {
   return blocked;
 }
 
-std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits) const {
+std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
+                             const Body* body) const {
   assert(!impl_->world->media.empty());
-  Crossings crossings{.hits = hits, .accel = impl_.get()};
+  Crossings crossings{hits, impl_->world, body, random, impl_.get()};
   Query query(impl_->scene, impl_->world, &random, false);
   query.crossings = &crossings;
   RTCRayHit r;

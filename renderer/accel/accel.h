@@ -44,6 +44,12 @@ struct alignas(64) RayPacket {
   Ray ray(int i) const { return {{ox[i], oy[i], oz[i]}, {dx[i], dy[i], dz[i]}, tmax[i]}; }
 };
 
+/// The surface of one medium in one place: what of the placement or solid that a hit names bounds it.
+struct Body {
+  std::uint32_t placement;
+  std::int32_t medium;  // of World::media
+};
+
 class Accel {
  public:
   /// The scene and world must outlive the Accel. Throws std::runtime_error where Embree fails (out of
@@ -74,9 +80,11 @@ class Accel {
   std::uint32_t occluded(const RayPacket& rays) const;
 
   /// Everything that a ray of any direction crosses in (0, tmax), in no order, each surface at each place
-  /// once: puts it into `hits`, as far as there is room, and returns how many. For worlds that have media;
-  /// others are not built for it.
-  std::size_t crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits) const;
+  /// once; or, where a body is given, its surface alone. Returns how many there are and puts them into
+  /// `hits`: where there is no room for all, as many as there is, each as likely as any other. For worlds
+  /// that have media; others are not built for it.
+  std::size_t crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
+                        const Body* body = nullptr) const;
 
   std::size_t bytes() const;  // what Embree holds now
   BuildCounts builds() const;

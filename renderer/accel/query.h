@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "renderer/accel/accel.h"
 #include "renderer/accel/embree.h"
 #include "renderer/base/random.h"
 #include "renderer/scene/surface.h"
@@ -12,11 +13,19 @@ namespace parian {
 /// Where a query that wants all crossings of its ray puts them.
 struct Crossings {
   std::span<Hit> hits;
+  const World* world;
+  const Body* body;  // null: with anything
+  std::uint32_t random;
+  const void* accel;  // Accel::Impl, which knows what an Embree hit is
   std::size_t count = 0;
-  const void* accel = nullptr;  // Accel::Impl, which knows what an Embree hit is
 
+  /// Where there is no more room each of those met has the same chance to be kept (Vitter 1985, Random
+  /// Sampling with a Reservoir, algorithm R).
   void add(const Hit& hit) {
-    if (count < hits.size()) hits[count++] = hit;
+    if (body && !(hit.placement == body->placement && hit_part(*world, hit).medium == body->medium)) return;
+    std::size_t place = count++;
+    if (place >= hits.size()) place = hash32(random, std::uint32_t(count)) % count;
+    if (place < hits.size()) hits[place] = hit;
   }
 };
 

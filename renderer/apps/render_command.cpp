@@ -51,6 +51,11 @@ const std::map<std::string, LightChoice> kLightChoices{
     {"uniform", LightChoice::uniform}, {"power", LightChoice::power}, {"tree", LightChoice::tree}};
 const std::map<std::string, Microfacets> kMicrofacets{{"compensated", Microfacets::compensated},
                                                       {"single", Microfacets::single}};
+const std::map<std::string, Subsurface> kSubsurface{
+    {"auto", Subsurface::automatic}, {"random-walk", Subsurface::random_walk},
+    {"dipole", Subsurface::dipole},  {"better-dipole", Subsurface::better_dipole},
+    {"burley", Subsurface::burley},  {"photon-beam", Subsurface::photon_beam},
+    {"off", Subsurface::off}};
 const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol},
                                                    {"independent", SamplerKind::independent}};
 const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris},
@@ -100,7 +105,7 @@ Vec2i default_size(const Camera& camera) {
   return {960, std::clamp(int(std::lround(960 / aspect)), 1, 65536)};
 }
 
-const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal", "depth", "object"};
+const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal", "depth", "object", "sss"};
 
 FilmLayers film_layers(const std::vector<std::string>& names) {
   FilmLayers layers{false, false, false};
@@ -173,11 +178,11 @@ std::string checkpoint_key(const RenderOptions& o) {
   const RenderSettings& s = o.settings;
   return fmt::format(
       "scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
-      "lights {} ggx {} depth {} clamp {} layers {}{}{}",
+      "lights {} ggx {} sss {} depth {} clamp {} layers {}{}{}",
       hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
       int(o.integrator_settings.strategy), int(s.light_choice), int(o.integrator_settings.microfacets),
-      o.integrator_settings.max_depth, o.integrator_settings.clamp, s.layers.variance, s.layers.sample_count,
-      s.layers.features);
+      int(o.integrator_settings.subsurface), o.integrator_settings.max_depth, o.integrator_settings.clamp,
+      s.layers.variance, s.layers.sample_count, s.layers.features);
 }
 
 /// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
@@ -293,6 +298,10 @@ Command add_render_command(CLI::App& app) {
              "path: which light is sampled: any alike, by power, by what it may send to the place [tree]");
   add_choice(c, "--ggx", o.integrator_settings.microfacets, kMicrofacets,
              "path: rough surfaces scatter light as often as it meets facets, or once [compensated]");
+  add_choice(
+      c, "--sss", o.integrator_settings.subsurface, kSubsurface,
+      "path: light inside dense bodies by a random walk, by a model of diffusion, by place whichever is "
+      "cheap and near, or not at all [auto]");
   c.add_option("--max-depth", o.integrator_settings.max_depth,
                "path: scattering events of a path at most [100]")
       ->check(CLI::Range(0, 1 << 20).description(""));

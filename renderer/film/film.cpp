@@ -56,7 +56,8 @@ Picture Film::resolve() const {
   if (layers_.variance) add({"variance.R", "variance.G", "variance.B"});
   if (layers_.sample_count) add({"samples"});
   if (layers_.features)
-    add({"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "object.id"});
+    add({"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "object.id",
+         "sss.walk", "sss.diffusion"});
   picture.pixels.reserve(picture.channels.size() * pixels_.size());
   const auto put = [&](double value) { picture.pixels.push_back(float(value)); };
 
@@ -74,6 +75,8 @@ Picture Film::resolve() const {
       for (float c : f.normal) put(c * scale);
       put(f.depth * scale);
       put(p.object);
+      put(f.walked * scale);
+      put(f.diffused * scale);
     }
   }
   return picture;

@@ -18,6 +18,8 @@ struct Features {
   Vec3f normal{0, 0, 0};
   float depth = 0;           // along the ray; 0 for the background
   std::uint32_t object = 0;  // node index + 1; 0 for the background
+  // 1 where the path went into a dense body there and walked through it, or was diffused by it.
+  float walked = 0, diffused = 0;
 };
 
 /// A rectangle of pixels.
@@ -42,13 +44,13 @@ struct PixelSums {
 };
 
 struct FeatureSums {
-  float albedo[3] = {}, normal[3] = {}, depth = 0;
+  float albedo[3] = {}, normal[3] = {}, depth = 0, walked = 0, diffused = 0;
 };
 
 struct FilmLayers {
   bool variance = true;  // variance of the mean per channel, from the pixel's own samples
   bool sample_count = false;
-  bool features = false;  // albedo, normal, depth, object id
+  bool features = false;  // albedo, normal, depth, object id, subsurface method
   bool operator==(const FilmLayers&) const = default;
 };
 

@@ -212,11 +212,13 @@ Vec3f hit_normal(const World& world, const Hit& hit) {
     const SolidPoint point = surface_point(placed.solid, {hit.u, hit.v, hit.w}, Face(hit.triangle));
     return placed.to_world.normal(point.normal);
   }
-  const Primitive& primitive = *hit_part(world, hit).primitive;
+  const Part& part = hit_part(world, hit);
+  const Primitive& primitive = *part.primitive;
   const Triangle& t = primitive.triangles[hit.triangle];
   const Vec3f& v0 = primitive.positions[t[0]];
-  return world.placements[hit.placement].to_world.normal(
+  const Vec3f n = world.placements[hit.placement].to_world.normal(
       (primitive.positions[t[1]] - v0).cross(primitive.positions[t[2]] - v0));
+  return part.inside_out ? -n : n;
 }
 
 float solid_offset(const Affine& to_world, const Vec3f& point) {

@@ -76,7 +76,14 @@ inline const Part& hit_part(const World& world, const Hit& hit) {
                         : world.part(hit.placement, hit.primitive);
 }
 
-/// The normal of what was hit, not of unit length: of its triangle or solid, on its front side, world space.
+/// Gives a surface of a part that is inside out the front that it should have.
+inline void turn(Surface& s) {
+  s.ng = -s.ng;
+  s.front = !s.front;
+}
+
+/// The normal of what was hit, not of unit length: of its triangle or solid, on its front side (of what is
+/// inside out, on the other), world space.
 Vec3f hit_normal(const World& world, const Hit& hit);
 
 /// Where a ray along w leaves: p moved to w's side of the surface, beyond the rounding error. From a surface

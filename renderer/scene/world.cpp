@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "renderer/base/parallel.h"
+#include "renderer/scene/orientation.h"
 #include "renderer/scene/shape_meshes.h"
 
 namespace parian {
@@ -41,6 +43,7 @@ Part make_part(const Scene& scene, const Primitive* primitive, int material) {
           .extended = m.transmission || m.diffuse_transmission || m.clearcoat || m.sheen || m.anisotropy ||
                       m.iridescence || m.phong || m.conductor || m.subsurface,
           .medium = kNone,
+          .inside_out = false,
           .alpha = has_alpha(m, colored),
           .bounds = {}};
 }
@@ -146,6 +149,7 @@ class WorldBuilder {
     world_.cameras = place_cameras(scene_);
     for (std::vector<Part>* parts : {&world_.parts, &world_.solid_parts})
       for (Part& part : *parts) part.medium = medium_of(part);
+    if (!world_.media.empty()) find_orientations();
     return std::move(world_);
   }
 
@@ -156,6 +160,20 @@ class WorldBuilder {
     const auto [known, is_new] = media_.try_emplace(part.material_index, std::int32_t(world_.media.size()));
     if (is_new) world_.media.push_back(make_medium(*part.material));
     return known->second;
+  }
+
+  /// Of what in each mesh bounds one medium.
+  void find_orientations() {
+    for (std::size_t mesh = 0; mesh < first_part_.size(); ++mesh) {
+      const std::size_t end = mesh + 1 < first_part_.size() ? first_part_[mesh + 1] : world_.parts.size();
+      std::map<std::int32_t, std::vector<const Primitive*>> bodies;
+      const auto parts = std::span(world_.parts).subspan(first_part_[mesh], end - first_part_[mesh]);
+      for (const Part& part : parts)
+        if (part.medium != kNone) bodies[part.medium].push_back(part.primitive);
+      for (const auto& [medium, primitives] : bodies)
+        if (is_inside_out(primitives))
+          for (Part& part : parts) part.inside_out |= part.medium == medium;
+    }
   }
 
   void add_node(const Node& node, int index, const Mat4d& to_world) {

@@ -24,8 +24,10 @@ struct Part {
   bool bends;           // it mirrors or refracts: shading normals must not send light to the wrong side
   bool extended;        // the material has an extension that shapes its lobes
   std::int32_t medium;  // what the surface bounds, of World::media; kNone: nothing
-  bool alpha;           // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
-  Box3f bounds;         // in object space; of a solid empty
+  // It bounds a medium, and its triangles' fronts are towards that (is_inside_out()).
+  bool inside_out;
+  bool alpha;    // MASK, or BLEND that is not opaque everywhere: rays are tested in the intersection
+  Box3f bounds;  // in object space; of a solid empty
 };
 
 /// A mesh drawn once.

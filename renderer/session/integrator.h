@@ -48,6 +48,9 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
+  /// Makes what it needs to know of the world that it will be asked about from now on.
+  virtual void prepare(const World&) {}
+
   /// Gives each path one unbiased sample of the radiance arriving along its ray, drawn from its sampler;
   /// fills in the features where they are `wanted`; counts the rays that it traces. The paths, one at least
   /// and RayPacket::kSize at most, are those of neighbouring pixels: side by side, each step of theirs costs

@@ -26,7 +26,7 @@ MediumStack find_media(const World& world, const Accel& accel, const Vec3f& p) {
        {Vec3f(0.36f, 0.48f, 0.8f), Vec3f(-0.8f, 0.36f, -0.48f), Vec3f(0.48f, -0.8f, -0.36f)}) {
     std::map<Around, int> left;
     const std::size_t count = accel.crossings({p, d}, 0, hits);
-    for (const Hit& hit : std::span(hits).first(count)) {
+    for (const Hit& hit : std::span(hits).first(std::min(count, hits.size()))) {
       if (hit.placement == Hit::kAreaLightHit) continue;
       const Medium* medium = world.medium(hit_part(world, hit));
       if (!medium) continue;

@@ -31,6 +31,8 @@ void add_features(FeatureSums& sums, const Features& f) {
     sums.normal[k] += f.normal[k];
   }
   sums.depth += f.depth;
+  sums.walked += f.walked;
+  sums.diffused += f.diffused;
 }
 
 }  // namespace
@@ -51,6 +53,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
       film_(settings.width, settings.height, settings.layers) {
   const Clock::time_point start = Clock::now();
   world_ = std::make_unique<World>(make_world(*scene_));
+  integrator_->prepare(*world_);
   accel_ = std::make_unique<Accel>(*scene_, *world_, settings_.accel);
   build_lights();
   view_ = make_camera_view(*scene_, world_->cameras.at(settings_.camera), settings_.width, settings_.height);
@@ -235,6 +238,7 @@ void Session::retrace(std::shared_ptr<const Scene> scene, unsigned changed) {
   }
   scene_ = std::move(scene);
   world_ = std::move(world);
+  integrator_->prepare(*world_);
   build_lights();
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "tests/renderer/accel/support/built.h"
 
@@ -80,7 +81,8 @@ TEST(Crossings, InOnePlaceAreAllThere) {
   EXPECT_NE(all[0].entering, all[1].entering);
 }
 
-// What alpha cuts away is not crossed; there is no room for more than there is room for.
+// What alpha cuts away is not crossed. Where there is no room for all, each has the same chance to be kept:
+// here 1/2; the tolerance is 5 standard errors.
 TEST(Crossings, RespectAlphaAndTheRoomGiven) {
   Scene scene;
   add_mesh(scene, make_quad({0, 0, -20}, {1, 0, 0}, {0, 1, 0}), add_glass(scene));
@@ -89,7 +91,40 @@ TEST(Crossings, RespectAlphaAndTheRoomGiven) {
   const Ray ray{{0.1f, 0.2f, 0}, {0, 0, -1}};
   EXPECT_EQ(crossings(built, ray).size(), 6u);
   std::array<Hit, 3> few;
-  EXPECT_EQ(built.accel->crossings(ray, 0, few), 3u);
+  std::map<float, int> kept;
+  constexpr int kRays = 20000;
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    EXPECT_EQ(built.accel->crossings(ray, hash32(i), few), 6u);
+    for (const Hit& hit : few) ++kept[hit.t];
+  }
+  EXPECT_EQ(kept.size(), 6u);
+  for (const auto& [t, count] : kept) EXPECT_NEAR(count, kRays / 2, 5 * std::sqrt(kRays / 4.0)) << t;
+}
+
+// Ten thousand layers of one body, of which there is room for sixteen; and none of another body in between.
+TEST(Crossings, OfOneBodyAreThoseAlone) {
+  Scene scene;
+  const int glass = add_glass(scene);
+  Primitive layers;
+  std::vector<Vec3f> positions;
+  std::vector<Triangle> triangles;
+  constexpr std::uint32_t kLayers = 10000;
+  for (std::uint32_t i = 0; i < kLayers; ++i) {
+    for (const Vec2f& p : {Vec2f(-1, -1), Vec2f(3, -1), Vec2f(-1, 3)})
+      positions.push_back({p.x, p.y, -1 - 1e-3f * float(i)});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  layers.positions = positions;
+  layers.triangles = triangles;
+  add_mesh(scene, layers, glass);
+  add_mesh(scene, make_box({-1, -1, -4}, {1, 1, -3}), glass);
+  const Built built(std::move(scene));
+  const Ray ray{{0.1f, 0.2f, 0}, {0, 0, -1}};
+  std::array<Hit, 16> some;
+  const Body body{0, built.world.part(0, 0).medium}, other{1, built.world.part(1, 0).medium};
+  EXPECT_EQ(built.accel->crossings(ray, 1, some, &body), kLayers);
+  for (const Hit& hit : some) EXPECT_EQ(hit.placement, 0u);
+  EXPECT_EQ(built.accel->crossings(ray, 1, some, &other), 2u);
 }
 
 }  // namespace

@@ -132,16 +132,17 @@ TEST(Film, ResolvesTheLayersThatWereAskedFor) {
   tile.pixels[0].object = 42;
   add(tile, 1, 0, {1, 1, 1});
   add(tile, 1, 0, {3, 3, 3});
-  tile.features[0] = {{1, 2, 3}, {0, 0, 2}, 9};
+  tile.features[0] = {{1, 2, 3}, {0, 0, 2}, 9, 2, 1};
   film.merge(tile);
   const Picture picture = film.resolve();
   EXPECT_EQ(picture.width, 2);
   EXPECT_EQ(picture.height, 1);
   EXPECT_EQ(picture.channels,
             (std::vector<std::string>{"R", "G", "B", "samples", "albedo.R", "albedo.G", "albedo.B",
-                                      "normal.X", "normal.Y", "normal.Z", "depth.Z", "object.id"}));
-  const std::vector<float> expected{0, 0, 0, 0, 0,    0, 0,    0, 0, 0, 0,    0,
-                                    2, 2, 2, 2, 0.5f, 1, 1.5f, 0, 0, 1, 4.5f, 42};
+                                      "normal.X", "normal.Y", "normal.Z", "depth.Z", "object.id", "sss.walk",
+                                      "sss.diffusion"}));
+  const std::vector<float> expected{0, 0, 0, 0, 0,    0, 0,    0, 0, 0, 0,    0,  0, 0,
+                                    2, 2, 2, 2, 0.5f, 1, 1.5f, 0, 0, 1, 4.5f, 42, 1, 0.5f};
   EXPECT_EQ(picture.pixels, expected) << "pixels without a sample are black";
 }
 

@@ -1,0 +1,68 @@
+#include "integrators/random_walk.h"
+
+#include "integrators/boundary.h"
+#include "renderer/base/sampling.h"
+
+namespace parian {
+namespace {
+
+/// Multiplies the weight by f / pdf of having come as far as `distance`, where the medium's `event` (per
+/// metre; 1 for none) ends the piece, and the density that sampling has for channel k is rate[k] times its
+/// transmittance. The channel was chosen by what the weight was before.
+void weigh(Rgb& weight, const Rgb& transmitted, const Rgb& event, const Rgb& rate) {
+  const float sum = weight.x + weight.y + weight.z;
+  const float pdf = weight.dot(rate * transmitted);
+  weight = pdf > 0 ? weight * transmitted * event * (sum / pdf) : Rgb(0, 0, 0);
+}
+
+/// The channel in whose proportion of the weight u falls.
+int choose_channel(const Rgb& weight, float u) {
+  u *= weight.x + weight.y + weight.z;
+  return u < weight.x ? 0 : u < weight.x + weight.y ? 1 : 2;
+}
+
+}  // namespace
+
+Vec3f sample_henyey_greenstein(const Vec3f& d, float g, const Vec2f& u) {
+  if (g == 0) return sample_sphere(u);
+  const float s = (1 - g * g) / (1 + g - 2 * g * u.x);
+  // Near g = 0 the quotient cancels; there the distribution is linear in the cosine to first order.
+  const float z = std::abs(g) < 1e-3f ? 1 - 2 * u.x + 1.5f * g * (1 - (1 - 2 * u.x) * (1 - 2 * u.x))
+                                      : (1 + g * g - s * s) / (2 * g);
+  const float cosine = std::clamp(z, -1.0f, 1.0f);
+  const Vec2f p = unit_circle(u.y) * std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+  return make_frame(d).to_world({p.x, p.y, cosine});
+}
+
+Walk walk(const TraceContext& context, const Medium& medium, Ray& ray, Hit& hit, Rgb& weight,
+          Sampler& sampler, RayCounts& counts) {
+  const Rgb extinction = medium.extinction(), nothing(1, 1, 1);
+  int patience = kLongWalk;
+  for (int steps = 0; steps < kLongestWalk; ++steps) {
+    const int k = choose_channel(weight, sampler.next_independent());
+    ray.tmax = extinction[k] > 0 ? -std::log(1 - sampler.next_independent()) / extinction[k] : kInfinity;
+    ++counts.scattered;
+    const bool met = context.accel.intersect(ray, sampler.key(), hit);
+    if (met || ray.tmax == kInfinity) {
+      weigh(weight, transmittance(&medium, met ? hit.t : kInfinity), nothing, nothing);
+      return steps == 0 ? Walk::straight : Walk::scattered;
+    }
+    weigh(weight, transmittance(&medium, ray.tmax), medium.scattering, extinction);
+    // Without what is left to carry, absorption ends the path; else it would go on for ever, ever darker.
+    const float survival = std::min(1.0f, max_component(weight));
+    if (!(sampler.next_independent() < survival)) return Walk::ended;
+    weight *= 1 / survival;
+    if (steps == patience) {
+      constexpr float kGoesOn = 0.70710678f;
+      if (sampler.next_independent() >= kGoesOn) return Walk::ended;
+      weight *= 1 / kGoesOn;
+      patience *= 2;
+    }
+    const float choice = sampler.next_independent();
+    ray.o += ray.d * ray.tmax;
+    ray.d = sample_henyey_greenstein(ray.d, medium.anisotropy, {choice, sampler.next_independent()});
+  }
+  return Walk::ended;
+}
+
+}  // namespace parian
