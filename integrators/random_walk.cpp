@@ -24,14 +24,11 @@ int choose_channel(const Rgb& weight, float u) {
 }  // namespace
 
 Vec3f sample_henyey_greenstein(const Vec3f& d, float g, const Vec2f& u) {
-  if (g == 0) return sample_sphere(u);
-  const float s = (1 - g * g) / (1 + g - 2 * g * u.x);
-  // Near g = 0 the quotient cancels; there the distribution is linear in the cosine to first order.
-  const float z = std::abs(g) < 1e-3f ? 1 - 2 * u.x + 1.5f * g * (1 - (1 - 2 * u.x) * (1 - 2 * u.x))
-                                      : (1 + g * g - s * s) / (2 * g);
-  const float cosine = std::clamp(z, -1.0f, 1.0f);
-  const Vec2f p = unit_circle(u.y) * std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-  return make_frame(d).to_world({p.x, p.y, cosine});
+  // 1 - cos, from the inverse of the distribution function without its differences of like numbers.
+  const float a = 1 + g - 2 * g * u.x, s = (1 - g * g) / a;
+  const float versine = std::clamp((1 - g) * u.x * (s + 1 - g) / a, 0.0f, 2.0f);
+  const Vec2f p = unit_circle(u.y) * std::sqrt(versine * (2 - versine));
+  return make_frame(d).to_world({p.x, p.y, 1 - versine});
 }
 
 Walk walk(const TraceContext& context, const Medium& medium, Ray& ray, Hit& hit, Rgb& weight,

@@ -19,7 +19,7 @@ Picture walked(const Scene& scene, int spp, int side = 16) {
 // function of 1.4%. The mean cosine is g.
 TEST(HenyeyGreenstein, IsSampledByItsDistribution) {
   TestRandom random(1);
-  for (const float g : {-0.99f, -0.5f, -1e-3f, 0.0f, 5e-4f, 2e-3f, 0.3f, 0.9f, 0.999f}) {
+  for (const float g : {-0.99f, -0.5f, -1e-3f, 0.0f, 5e-4f, 2e-3f, 0.3f, 0.9f, 0.99f}) {
     constexpr int kSamples = 40000;
     const Vec3f d = random.direction();
     std::vector<double> cosines;
@@ -64,7 +64,7 @@ TEST(Walk, LosesNothingInAFurnaceWhereNothingAbsorbs) {
       add_shape(scene, make_sphere(1), add_material(scene, m));
       set_white_sky(scene);
       add_probe(scene, {0, 0, 0}, normalize(Vec3f(1, 0.4f, 2)), 5, 0.9f);
-      const Picture p = walked(scene, 64);
+      const Picture p = walked(scene, 256);
       for (int k = 0; k < 3; ++k) EXPECT_TRUE(mean_is(mean_of(p, k), 1, 0.02)) << ior << " " << g << " " << k;
     }
 }
@@ -78,10 +78,11 @@ TEST(Walk, OfAThickBlockIsThatOfAHalfSpace) {
     add_block(scene, make_dense((Rgb(1, 1, 1) - albedo) * extinction, albedo * extinction, ior), 200);
     set_white_sky(scene);
     add_probe_above(scene, {0, 0, 0});
-    const Picture p = walked(scene, 256);
-    for (int k = 0; k < 3; ++k)
-      EXPECT_TRUE(mean_is(mean_of(p, k), seen(ior, half_space_reflectance(albedo[k], ior)), 0.03))
-          << ior << " " << k;
+    const Picture p = walked(scene, 512);
+    for (int k = 0; k < 3; ++k) {
+      const double truth = seen(ior, half_space_reflectance(albedo[k], ior));
+      EXPECT_TRUE(mean_is(mean_of(p, k), truth, 0.012 / truth)) << ior << " " << k;
+    }
   }
 }
 
@@ -101,9 +102,9 @@ TEST(Walk, OfASlabReflectsAndTransmitsAsItShould) {
       add_probe_above(scene, {0, 0, 0});
       const double f0 = normal_reflectance(1.3);
       const double truth = above ? f0 + (1 - f0) * slab.reflected : (1 - f0) * slab.transmitted;
-      const Mean mean = mean_of(walked(scene, 128), 0);
+      const Mean mean = mean_of(walked(scene, 256), 0);
       EXPECT_NEAR(mean.value, truth, 4.5 * std::hypot(mean.error, 0.001)) << slab.thickness << " " << above;
-      EXPECT_LT(4.5 * mean.error, 0.03);
+      EXPECT_LT(4.5 * mean.error, 0.015);
     }
 }
 
@@ -123,9 +124,8 @@ TEST(Walk, FollowsSimilarity) {
     add_probe_above(scene, {0, 0, 0});
     const Medium medium = make_medium(m);
     const float s = medium.reduced_scattering().x;
-    EXPECT_TRUE(mean_is(mean_of(walked(scene, 128), 0),
-                        half_space_reflectance(s / (s + medium.absorption.x), 1), 0.06))
-        << g;
+    const double alike = half_space_reflectance(s / (s + medium.absorption.x), 1);
+    EXPECT_NEAR(mean_of(walked(scene, 256), 0).value / alike, 1, 0.07) << g;
   }
 }
 
@@ -137,9 +137,9 @@ TEST(Walk, BearsAMeshThatIsInsideOut) {
     add_mesh(scene, make_box({-1, -1, -1}, {1, 1, 1}, outwards), add_material(scene, make_dense(0.9f, 1.3f)));
     set_white_sky(scene);
     add_probe(scene, {0, 0, 0}, normalize(Vec3f(1, 0.4f, 2)), 5, 0.9f);
-    means[outwards] = mean_of(walked(scene, 64), 0);
+    means[outwards] = mean_of(walked(scene, 256), 0);
   }
-  EXPECT_TRUE(means_agree(means[0], means[1], 0.02));
+  EXPECT_TRUE(means_agree(means[0], means[1], 0.03));
 }
 
 // Media without an end and media without a middle: every render ends and no sample is dropped.
