@@ -34,7 +34,7 @@ std::optional<Boundary> find_boundary(const TraceContext& context, const MediumS
 
 Rgb transmittance(const Medium* medium, float distance) {
   if (!medium) return Rgb(1, 1, 1);
-  const Rgb extinction = medium->extinction();
+  const Rgb extinction = medium->extinction;
   Rgb left;
   for (int k = 0; k < 3; ++k) left[k] = extinction[k] > 0 ? std::exp(-extinction[k] * distance) : 1;
   return left;

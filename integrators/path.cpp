@@ -87,9 +87,9 @@ class Tracer {
       return false;
     }
     Surface surface = make_surface(context_.scene, context_.world, path.hit(), path.ray().d);
-    if (kMedia && surface.part->inside_out) turn(surface);
     std::optional<Boundary> boundary;
     if (kMedia && surface.part->medium != kNone) {
+      if (surface.part->inside_out) turn(surface);
       boundary =
           find_boundary(context_, path.media, path.ray(), path.sampler().key(), path.camera->hit, surface);
       if (boundary && boundary->before == boundary->after) return pass(path, surface, *boundary);

@@ -33,7 +33,7 @@ Vec3f sample_henyey_greenstein(const Vec3f& d, float g, const Vec2f& u) {
 
 Walk walk(const TraceContext& context, const Medium& medium, Ray& ray, Hit& hit, Rgb& weight,
           Sampler& sampler, RayCounts& counts) {
-  const Rgb extinction = medium.extinction(), nothing(1, 1, 1);
+  const Rgb extinction = medium.extinction, nothing(1, 1, 1);
   int patience = kLongWalk;
   for (int steps = 0; steps < kLongestWalk; ++steps) {
     const int k = choose_channel(weight, sampler.next_independent());

@@ -132,11 +132,13 @@ bool reads_extension(const std::string& name) {
                                               "KHR_materials_transmission",
                                               "KHR_materials_unlit",
                                               "KHR_materials_volume",
+                                              "KHR_materials_volume_scatter",
                                               "KHR_mesh_quantization",
                                               "KHR_texture_transform",
                                               "PARIAN_materials_conductor",
                                               "PARIAN_materials_phong",
                                               "PARIAN_materials_priority",
+                                              "PARIAN_materials_subsurface",
                                               "PARIAN_shape"};
   return names.contains(name);
 }

@@ -2,6 +2,7 @@
 #include "scene_io/gltf_material_extensions.h"
 
 #include "scene_io/metals.h"
+#include "scene_io/scattering_materials.h"
 
 namespace parian {
 namespace {
@@ -31,6 +32,13 @@ Volume read_volume(const Value& source) {
   v.thickness = real_or(source, "thicknessFactor", v.thickness);
   v.attenuation_color = rgb_or(source, "attenuationColor", v.attenuation_color);
   v.attenuation_distance = real_or(source, "attenuationDistance", v.attenuation_distance);
+  return v;
+}
+
+VolumeScatter read_scatter(const Value& source) {
+  VolumeScatter v;
+  v.multiscatter_color = rgb_or(source, "multiscatterColor", v.multiscatter_color);
+  v.anisotropy = real_or(source, "scatterAnisotropy", v.anisotropy);
   return v;
 }
 
@@ -99,6 +107,23 @@ ConductorModel read_conductor(const Value& source) {
   return c;
 }
 
+ScatteringMaterial read_scattering_material(const Value& source) {
+  if (const auto known = find_scattering_material(text_or(source, "name", ""))) return *known;
+  ScatteringMaterial m;
+  m.reduced_scattering = rgb_or(source, "sigmaSPrime", m.reduced_scattering);
+  m.absorption = rgb_or(source, "sigmaA", m.absorption);
+  m.eta = real_or(source, "eta", m.eta);
+  return m;
+}
+
+/// Its model and index of refraction.
+void read_subsurface(const Value& source, Material& material) {
+  const ScatteringMaterial m = read_scattering_material(source);
+  const float per_metre = float(1000 / number_or(source, "scale", 1));
+  material.subsurface = SubsurfaceModel{m.absorption * per_metre, m.reduced_scattering * per_metre};
+  material.ior = m.eta;
+}
+
 }  // namespace
 
 void read_material_extensions(const tinygltf::ExtensionMap& extensions, TextureTable& textures,
@@ -117,6 +142,7 @@ void read_material_extensions(const tinygltf::ExtensionMap& extensions, TextureT
   if (const auto* e = find("KHR_materials_transmission"))
     material.transmission = read_transmission(*e, textures);
   if (const auto* e = find("KHR_materials_volume")) material.volume = read_volume(*e);
+  if (const auto* e = find("KHR_materials_volume_scatter")) material.scatter = read_scatter(*e);
   if (const auto* e = find("KHR_materials_diffuse_transmission"))
     material.diffuse_transmission = read_diffuse_transmission(*e, textures);
   if (const auto* e = find("KHR_materials_clearcoat")) material.clearcoat = read_clearcoat(*e, textures);
@@ -128,6 +154,7 @@ void read_material_extensions(const tinygltf::ExtensionMap& extensions, TextureT
     material.dispersion = real_or(*e, "dispersion", material.dispersion);
   if (const auto* e = find("PARIAN_materials_phong")) material.phong = read_phong(*e);
   if (const auto* e = find("PARIAN_materials_conductor")) material.conductor = read_conductor(*e);
+  if (const auto* e = find("PARIAN_materials_subsurface")) read_subsurface(*e, material);
   if (const auto* e = find("PARIAN_materials_priority"))
     material.priority = int(number_or(*e, "priority", material.priority));
 }

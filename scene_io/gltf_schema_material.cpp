@@ -1,19 +1,17 @@
-/// The schema of materials, and the rules for them that a schema cannot say.
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
+/// The schema of materials.
 #include <string>
 #include <utility>
 
-#include "renderer/base/error.h"
 #include "scene_io/gltf_schema.h"
 #include "scene_io/metals.h"
+#include "scene_io/scattering_materials.h"
 
 namespace parian {
 namespace {
 
 constexpr double kMaxInt = 2147483647;  // what tinygltf holds in an int
+// So that a coefficient per millimetre over a scale is far inside the range of a float.
+constexpr double kLarge = 1e9;
 
 /// A textureInfo: the reference to a texture, with what `more` members its place in the material adds.
 Field texture(std::string key, std::vector<Field> more = {}) {
@@ -43,6 +41,7 @@ Field material_extensions() {
        object("KHR_materials_transmission", {factor("transmissionFactor"), texture("transmissionTexture")}),
        object("KHR_materials_volume", {number("thicknessFactor").at_least(0), texture("thicknessTexture"),
                                        number("attenuationDistance").positive(), color("attenuationColor")}),
+       object("KHR_materials_volume_scatter", {color("multiscatterColor"), number("scatterAnisotropy")}),
        object("KHR_materials_dispersion", {number("dispersion").at_least(0)}),
        object("KHR_materials_diffuse_transmission",
               {factor("diffuseTransmissionFactor"), texture("diffuseTransmissionTexture"),
@@ -62,23 +61,11 @@ Field material_extensions() {
                                          number("exponent").at_least(0).required()}),
        object("PARIAN_materials_conductor",
               {text("name", metal_names()), numbers("eta", 3).at_least(0), numbers("k", 3).at_least(0)}),
+       object("PARIAN_materials_subsurface",
+              {text("name", scattering_material_names()), numbers("sigmaA", 3).between(0, kLarge),
+               numbers("sigmaSPrime", 3).between(0, kLarge), number("eta").at_least(1),
+               number("scale").between(1 / kLarge, kLarge)}),
        object("PARIAN_materials_priority", {integer("priority").between(-kMaxInt, kMaxInt)})});
-}
-
-void check_ior(const nlohmann::json& extension, const std::string& where, const std::string& file) {
-  const double ior = extension.value("ior", 1.5);
-  if (ior != 0 && ior < 1) throw InputError(file, where + "/ior", "expected 0 or a number of at least 1");
-}
-
-void check_conductor(const nlohmann::json& extension, const std::string& where, const std::string& file) {
-  const bool is_named = extension.contains("name");
-  for (const char* key : {"eta", "k"}) {
-    const std::string place = fmt::format("{}/{}", where, key);
-    if (is_named && extension.contains(key))
-      throw InputError(file, place, "expected no such member, since name says which metal it is");
-    if (!is_named && !extension.contains(key))
-      throw InputError(file, place, "expected 3 numbers, each of at least 0, since there is no name");
-  }
 }
 
 }  // namespace
@@ -92,25 +79,6 @@ Field material_fields() {
                             texture("normalTexture", {number("scale")}), color("emissiveFactor"),
                             texture("emissiveTexture"), text("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
                             number("alphaCutoff").at_least(0), flag("doubleSided"), material_extensions()});
-}
-
-void check_materials(const nlohmann::json& document, const std::string& file) {
-  if (!document.contains("materials")) return;
-  const nlohmann::json& materials = document["materials"];
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (!materials[i].contains("extensions")) continue;
-    const nlohmann::json& extensions = materials[i]["extensions"];
-    const auto check = [&](const char* name, const auto& rule) {
-      if (extensions.contains(name))
-        rule(extensions[name], fmt::format("/materials/{}/extensions/{}", i, name), file);
-    };
-    check("KHR_materials_ior", check_ior);
-    check("PARIAN_materials_conductor", check_conductor);
-    if (extensions.contains("PARIAN_materials_phong") && extensions.contains("PARIAN_materials_conductor")) {
-      throw InputError(file, fmt::format("/materials/{}/extensions/PARIAN_materials_phong", i),
-                       "expected no such member beside PARIAN_materials_conductor");
-    }
-  }
 }
 
 }  // namespace parian

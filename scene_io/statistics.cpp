@@ -45,6 +45,7 @@ std::string describe_features(const std::vector<Material>& materials) {
   };
   add("transmission", [](const Material& m) { return m.transmission.has_value(); });
   add("volume", [](const Material& m) { return m.volume.has_value(); });
+  add("volume scatter", [](const Material& m) { return m.scatter.has_value(); });
   add("dispersion", [](const Material& m) { return m.dispersion > 0; });
   add("priority", [](const Material& m) { return m.priority != 0; });
   add("diffuse transmission", [](const Material& m) { return m.diffuse_transmission.has_value(); });
@@ -54,6 +55,7 @@ std::string describe_features(const std::vector<Material>& materials) {
   add("iridescence", [](const Material& m) { return m.iridescence.has_value(); });
   add("Phong", [](const Material& m) { return m.phong.has_value(); });
   add("conductor", [](const Material& m) { return m.conductor.has_value(); });
+  add("subsurface", [](const Material& m) { return m.subsurface.has_value(); });
   return text;
 }
 

@@ -13,10 +13,11 @@ constexpr float kMostAbsorption = 1e30f;
 /// The share of attenuation that is scattering in a volume of a multi-scatter colour
 /// (KHR_materials_volume_scatter, after Kulla and Conty 2017), by similarity where it is not isotropic.
 float scattering_albedo(float color, float anisotropy) {
+  if (color == 0) return 0;  // which the formula misses by 6e-6
   const float s =
       4.09712f + 4.20863f * color - std::sqrt(9.59217f + 41.6808f * color + 17.7126f * color * color);
   const float isotropic = std::clamp(1 - s * s, 0.0f, 1.0f);
-  return isotropic / (1 - anisotropy + anisotropy * isotropic);
+  return std::min(isotropic / (1 - anisotropy + anisotropy * isotropic), 1.0f);
 }
 
 }  // namespace
@@ -27,12 +28,13 @@ Medium make_medium(const Material& m) {
   if (m.subsurface) {
     medium.absorption = m.subsurface->absorption;
     medium.scattering = m.subsurface->reduced_scattering;
+    medium.extinction = medium.absorption + medium.scattering;
     return medium;
   }
   const Volume& volume = *m.volume;
   if (volume.attenuation_distance <= 0) return medium;
   for (int k = 0; k < 3; ++k) {
-    const float extinction =
+    const float extinction = medium.extinction[k] =
         std::min(-std::log(volume.attenuation_color[k]) / volume.attenuation_distance, kMostAbsorption);
     const float albedo =
         m.scatter ? scattering_albedo(m.scatter->multiscatter_color[k], m.scatter->anisotropy) : 0;

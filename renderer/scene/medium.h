@@ -15,13 +15,13 @@ struct Medium {
   Rgb absorption;    // per metre
   int priority;
   Rgb scattering{0, 0, 0};  // per metre
-  float anisotropy = 0;     // mean cosine of a scattering (Henyey and Greenstein)
+  // The sum of both, per metre: what has not been scattered falls as exp(-extinction distance).
+  Rgb extinction{0, 0, 0};
+  float anisotropy = 0;  // mean cosine of a scattering (Henyey and Greenstein)
   // Its makers say that light in it is scattered so often that diffusion describes it.
   bool dense = false;
 
   bool scatters() const { return max_component(scattering) > 0; }
-  /// Per metre: what has not been scattered falls as exp(-extinction distance).
-  Rgb extinction() const { return absorption + scattering; }
   /// The scattering coefficient that without anisotropy would diffuse light alike (similarity).
   Rgb reduced_scattering() const { return scattering * (1 - anisotropy); }
   bool operator==(const Medium&) const = default;

@@ -28,6 +28,7 @@ class GltfBroken : public GltfTest {
           "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
           "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2,
             "attenuationColor": [0.5, 0.6, 0.7], "thicknessTexture": {"index": 0}},
+          "KHR_materials_volume_scatter": {"multiscatterColor": [0.1, 0.2, 0.3], "scatterAnisotropy": 0.5},
           "KHR_materials_dispersion": {"dispersion": 1},
           "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
             "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorFactor": [1, 1, 0],
@@ -47,7 +48,12 @@ class GltfBroken : public GltfTest {
         "extensions": {
           "PARIAN_materials_conductor": {"eta": [1, 2, 3], "k": [4, 5, 6]}}}, {
         "extensions": {
-          "PARIAN_materials_conductor": {"name": "gold"}}}],
+          "PARIAN_materials_conductor": {"name": "gold"}}}, {
+        "extensions": {
+          "PARIAN_materials_subsurface": {"sigmaA": [0, 1, 2], "sigmaSPrime": [3, 4, 5], "eta": 1.4,
+            "scale": 10}}}, {
+        "extensions": {
+          "PARIAN_materials_subsurface": {"name": "marble", "scale": 10}}}],
       "textures": [{"source": 0, "sampler": 0}],
       "samplers": [{"wrapS": 33071, "magFilter": 9728}],
       "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 10},
@@ -172,7 +178,7 @@ std::vector<Mutation> structure_mutations() {
       {"/meshes/0/primitives/0/attributes/NORMAL", 2},
       {"/meshes/0/primitives/0/attributes/JOINTS_0", nullptr},
       {"/meshes/0/primitives/0/indices", 0},
-      {"/meshes/0/primitives/0/material", 4},
+      {"/meshes/0/primitives/0/material", 6},
       {"/meshes/0/primitives/0/mode", 7},
       {"/nodes/0/mesh", 1},
       {"/nodes/0/children", 1, "/nodes/0/children: expected an array of indices"},
@@ -186,7 +192,7 @@ std::vector<Mutation> structure_mutations() {
       {"/nodes/1/extensions/PARIAN_shape/shape", kRemoved},
       {"/nodes/1/extensions/PARIAN_shape/shape", 5},
       {"/nodes/1/extensions/PARIAN_shape/shape", 4, "/extensions/KHR_implicit_shapes/shapes/4/type"},
-      {"/nodes/1/extensions/PARIAN_shape/material", 4},
+      {"/nodes/1/extensions/PARIAN_shape/material", 6},
       {"/extensions/KHR_implicit_shapes/shapes", kRemoved, "/nodes/1/extensions/PARIAN_shape/shape"},
       {"/extensions/KHR_implicit_shapes/shapes/0/type", kRemoved},
       {"/extensions/KHR_implicit_shapes/shapes/0/sphere", kRemoved},
@@ -281,6 +287,8 @@ std::vector<Mutation> material_extension_mutations() {
   const std::string ours = "/materials/1/extensions/PARIAN_materials_";
   const std::string eta_k = "/materials/2/extensions/PARIAN_materials_conductor";
   const std::string named = "/materials/3/extensions/PARIAN_materials_conductor";
+  const std::string marble = "/materials/5/extensions/PARIAN_materials_subsurface";
+  const std::string sigma = "/materials/4/extensions/PARIAN_materials_subsurface";
   return {
       {khronos + "transmission", 1},
       {khronos + "transmission/transmissionFactor", 1.1},
@@ -290,6 +298,16 @@ std::vector<Mutation> material_extension_mutations() {
       {khronos + "volume/attenuationDistance", 0},
       {khronos + "volume/attenuationColor/2", 1.5},
       {khronos + "volume/attenuationColor", {1, 1}},
+      {khronos + "volume", kRemoved,
+       khronos + "volume_scatter: expected no such member without KHR_materials_volume"},
+      {khronos + "volume_scatter", 1},
+      {khronos + "volume_scatter/multiscatterColor/1", 1.1},
+      {khronos + "volume_scatter/multiscatterColor/2", -0.1},
+      {khronos + "volume_scatter/multiscatterColor", {1, 1}},
+      {khronos + "volume_scatter/scatterAnisotropy", 1},
+      {khronos + "volume_scatter/scatterAnisotropy", -1},
+      {khronos + "volume_scatter/scatterAnisotropy", 0.999999999},  // 1 as a float
+      {khronos + "volume_scatter/scatterAnisotropy", "0"},
       {khronos + "dispersion/dispersion", -0.1},
       {khronos + "diffuse_transmission/diffuseTransmissionFactor", -0.1},
       {khronos + "diffuse_transmission/diffuseTransmissionTexture/index", kRemoved},
@@ -334,6 +352,38 @@ std::vector<Mutation> material_extension_mutations() {
       {named + "/k", {1, 1, 1}, named + "/k: expected no such member, since name says"},
       {named + "/name", kRemoved, named + "/eta"},
       {named + "/name", "cheese", named + "/name: expected one of \"silver\", \"gold\", \"copper\", "},
+      {sigma + "/sigmaA", kRemoved,
+       sigma + "/sigmaA: expected 3 numbers, each of at least 0, since there is no"},
+      {sigma + "/sigmaSPrime", kRemoved},
+      {sigma + "/sigmaA/0", -0.1},
+      {sigma + "/sigmaA/2", 2e9},
+      {sigma + "/sigmaA", {1, 1}},
+      {sigma + "/sigmaSPrime/1", -1},
+      {sigma + "/sigmaSPrime/1", 2e9},
+      {sigma + "/sigmaSPrime/1", "1"},
+      {sigma + "/eta", 0.9},
+      {sigma + "/eta", 1e39},
+      {sigma + "/scale", 0},
+      {sigma + "/scale", -1},
+      {sigma + "/scale", 1e10},
+      {sigma + "/name", "marble", sigma + "/sigmaA: expected no such member, since name says"},
+      {marble + "/sigmaA", {1, 1, 1}, marble + "/sigmaA: expected no such member, since name says"},
+      {marble + "/sigmaSPrime", {1, 1, 1}, marble + "/sigmaSPrime: expected no such member, since name says"},
+      {marble + "/eta", 1.5, marble + "/eta: expected no such member, since name says"},
+      {marble + "/name", kRemoved, marble + "/sigmaA"},
+      {marble + "/name", "cheese", marble + "/name: expected one of \"apple\", \"chicken1\", "},
+      {ours + "subsurface",
+       {{"name", "marble"}},
+       ours + "subsurface: expected no such member beside PARIAN_materials_phong"},
+      {"/materials/3/extensions/PARIAN_materials_subsurface",
+       {{"name", "marble"}},
+       "/materials/3/extensions/PARIAN_materials_subsurface: expected no such member beside "
+       "PARIAN_materials_conductor"},
+      {"/materials/5/extensions",
+       {{"PARIAN_materials_subsurface", {{"name", "marble"}}},
+        {"KHR_materials_volume", json::object()},
+        {"KHR_materials_volume_scatter", json::object()}},
+       marble + ": expected no such member beside KHR_materials_volume_scatter"},
   };
 }
 

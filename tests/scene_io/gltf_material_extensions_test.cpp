@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_io/metals.h"
+#include "scene_io/scattering_materials.h"
 #include "scene_io/statistics.h"
 #include "tests/scene_io/support/gltf_builder.h"
 
@@ -48,6 +49,7 @@ TEST_F(GltfMaterialExtensions, HaveTheDefaultsOfTheirSpecifications) {
   EXPECT_EQ(material(empty), expected);
   expected.transmission = Transmission{.factor = 0, .texture = {}};
   expected.volume = Volume{.thickness = 0, .attenuation_color = {1, 1, 1}, .attenuation_distance = 0};
+  expected.scatter = VolumeScatter{.multiscatter_color = {0, 0, 0}, .anisotropy = 0};
   expected.diffuse_transmission =
       DiffuseTransmission{.factor = 0, .color = {1, 1, 1}, .texture = {}, .color_texture = {}};
   expected.clearcoat = Clearcoat{.factor = 0,
@@ -69,6 +71,7 @@ TEST_F(GltfMaterialExtensions, HaveTheDefaultsOfTheirSpecifications) {
   expected.priority = 0;
   EXPECT_EQ(material({{"KHR_materials_transmission", empty},
                       {"KHR_materials_volume", empty},
+                      {"KHR_materials_volume_scatter", empty},
                       {"KHR_materials_diffuse_transmission", empty},
                       {"KHR_materials_clearcoat", empty},
                       {"KHR_materials_sheen", empty},
@@ -186,6 +189,48 @@ TEST_F(GltfMaterialExtensions, ReadsPhongAndConductors) {
   EXPECT_EQ(material({{"PARIAN_materials_conductor", {{"name", "gold"}}}}).conductor, find_metal("gold"));
 }
 
+TEST_F(GltfMaterialExtensions, ReadsVolumeScatter) {
+  const Material m = material({{"KHR_materials_volume", json::object()},
+                               {"KHR_materials_volume_scatter",
+                                {{"multiscatterColor", {.572, .227, .075}}, {"scatterAnisotropy", -.999}}}});
+  EXPECT_EQ(m.scatter, (VolumeScatter{.multiscatter_color = {.572f, .227f, .075f}, .anisotropy = -.999f}));
+}
+
+void expect_close(const Rgb& color, const Rgb& expected) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(color[k], expected[k], 1e-6 * expected[k]);
+}
+
+TEST_F(GltfMaterialExtensions, ReadsSubsurfacePerMetreOfTheScene) {
+  const json given = {{"sigmaA", {.1, .2, .3}}, {"sigmaSPrime", {4, 5, 6}}};
+  const Material m = material({{"PARIAN_materials_subsurface", given}});
+  expect_close(m.subsurface.value().absorption, {100, 200, 300});
+  expect_close(m.subsurface->reduced_scattering, {4000, 5000, 6000});
+  EXPECT_EQ(m.ior, 1.3f);
+  json large = given;
+  large.update({{"eta", 1.6}, {"scale", 10}});
+  const Material n =
+      material({{"PARIAN_materials_subsurface", large}, {"KHR_materials_ior", {{"ior", 1.1}}}});
+  expect_close(n.subsurface.value().absorption, {10, 20, 30});
+  expect_close(n.subsurface->reduced_scattering, {400, 500, 600});
+  EXPECT_EQ(n.ior, 1.6f);
+}
+
+TEST_F(GltfMaterialExtensions, ReadsSubsurfaceByName) {
+  const ScatteringMaterial marble = find_scattering_material("marble").value();
+  const Material m = material({{"PARIAN_materials_subsurface", {{"name", "marble"}, {"scale", .5}}}});
+  expect_close(m.subsurface.value().absorption, marble.absorption * 2000);
+  expect_close(m.subsurface->reduced_scattering, marble.reduced_scattering * 2000);
+  EXPECT_EQ(m.ior, 1.5f);
+}
+
+// What the schema lets through is a scene that validate() takes.
+TEST_F(GltfMaterialExtensions, ReadsSubsurfaceAtTheEndsOfItsRanges) {
+  const json most = {{"sigmaA", {1e9, 1e9, 1e9}}, {"sigmaSPrime", {1e9, 1e9, 1e9}}, {"scale", 1e-9}};
+  EXPECT_EQ(material({{"PARIAN_materials_subsurface", most}}).subsurface->absorption, Rgb(1e21f));
+  const json least = {{"sigmaA", {0, 0, 0}}, {"sigmaSPrime", {0, 0, 0}}, {"eta", 1}, {"scale", 1e9}};
+  EXPECT_EQ(material({{"PARIAN_materials_subsurface", least}}).subsurface, SubsurfaceModel());
+}
+
 TEST_F(GltfMaterialExtensions, AreCountedInTheDescription) {
   const json empty = json::object();
   material({{"KHR_materials_transmission", empty}, {"PARIAN_materials_conductor", {{"name", "gold"}}}});
@@ -193,6 +238,14 @@ TEST_F(GltfMaterialExtensions, AreCountedInTheDescription) {
   scene.materials[0].conductor.reset();
   EXPECT_NE(describe(scene, make_world(scene)).find("\nwith         2 transmission, 1 conductor\n"),
             std::string::npos);
+  material({{"KHR_materials_volume", empty},
+            {"KHR_materials_volume_scatter", empty},
+            {"PARIAN_materials_priority", {{"priority", 1}}}});
+  EXPECT_NE(
+      describe(scene, make_world(scene)).find("\nwith         1 volume, 1 volume scatter, 1 priority\n"),
+      std::string::npos);
+  material({{"PARIAN_materials_subsurface", {{"name", "skin1"}}}});
+  EXPECT_NE(describe(scene, make_world(scene)).find("\nwith         1 subsurface\n"), std::string::npos);
   EXPECT_EQ(describe(Scene(), make_world(Scene())).find("with "), std::string::npos);
 }
 

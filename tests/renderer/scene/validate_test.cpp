@@ -121,6 +121,7 @@ Material& full_material(Scene& scene) {
   Material& m = scene.materials[0];
   m.transmission.emplace();
   m.volume.emplace();
+  m.scatter.emplace();
   m.diffuse_transmission.emplace();
   m.clearcoat.emplace();
   m.sheen.emplace();
@@ -142,6 +143,11 @@ TEST(Validate, RefusesBadMaterialGroups) {
       {[](Material& m) { m.volume->thickness = -1; }, "volume/thickness"},
       {[](Material& m) { m.volume->attenuation_color.y = 2; }, "volume/attenuation_color"},
       {[](Material& m) { m.volume->attenuation_distance = kInfinity; }, "volume/attenuation_distance"},
+      {[](Material& m) { m.scatter->multiscatter_color.y = 1.5f; }, "scatter/multiscatter_color"},
+      {[](Material& m) { m.scatter->anisotropy = 1; }, "scatter/anisotropy"},
+      {[](Material& m) { m.scatter->anisotropy = -1; }, "scatter/anisotropy"},
+      {[](Material& m) { m.scatter->anisotropy = kNan; }, "scatter/anisotropy"},
+      {[](Material& m) { m.volume.reset(); }, "scatter"},
       {[](Material& m) { m.diffuse_transmission->factor = kNan; }, "diffuse_transmission/factor"},
       {[](Material& m) { m.diffuse_transmission->color.z = -1; }, "diffuse_transmission/color"},
       {[](Material& m) { m.diffuse_transmission->texture.texture = 1; },
@@ -182,6 +188,23 @@ TEST(Validate, RefusesBadMaterialGroups) {
          m.conductor.emplace().k.z = kInfinity;
        },
        "conductor/k"},
+      {[](Material& m) { m.subsurface.emplace(); }, "subsurface"},
+      {[](Material& m) {
+         m.phong.reset();
+         m.conductor.emplace();
+         m.subsurface.emplace();
+       },
+       "subsurface"},
+      {[](Material& m) {
+         m.phong.reset();
+         m.subsurface.emplace().absorption.y = -1;
+       },
+       "subsurface/absorption"},
+      {[](Material& m) {
+         m.phong.reset();
+         m.subsurface.emplace().reduced_scattering.z = kInfinity;
+       },
+       "subsurface/reduced_scattering"},
       {[](Material& m) { m.dispersion = -1; }, "dispersion"},
       {[](Material& m) { m.ior = kInfinity; }, "ior"},
   };
