@@ -14,8 +14,9 @@ namespace {
 // 1e-6.
 constexpr float kShadowEnd = 1 - 1e-5f;
 
-// In units of the diffusion length: how deep a body must be for diffusion to take the place of a walk.
-constexpr float kBroad = 8;
+// In units of DiffuseMedium::blur: how deep a body must be for diffusion to take the place of a walk. Balls
+// and slabs of any size then give back what a walk would within 5% (docs/subsurface.md).
+constexpr float kBroad = 10;
 
 /// One path as it grows: its last ray and what that met are those of `camera`. `pdf` is the density per solid
 /// angle of the ray's direction; infinite for the camera's, which no light sample competes with.
@@ -214,7 +215,7 @@ class Tracer {
   /// The share of the directions in which something is grows smoothly from broad to thin parts, and so does
   /// the share of walks.
   bool is_broad(Path& path, const Surface& surface, const DiffuseMedium& medium) const {
-    const float depth = kBroad * medium.diffusion_length;
+    const float depth = kBroad * medium.blur;
     if (!(depth < kInfinity)) return false;
     const Frame frame = make_frame(surface.front ? -surface.ng : surface.ng);
     const Vec3f d = frame.to_world(sample_cosine_hemisphere(path.sampler().next2()));

@@ -32,7 +32,7 @@ DiffuseMedium make_diffuse_medium(const Medium& medium, Subsurface method) {
                            method == Subsurface::automatic);
     result.reflectance[k] = float(half_space_reflectance(scattering[k] / extinction, medium.ior));
     result.reach = std::max(result.reach, profile.max_radius());
-    result.diffusion_length = std::max(result.diffusion_length, 1 / std::sqrt(3 * absorption * extinction));
+    result.blur = std::max(result.blur, 1 / std::sqrt(3 * absorption * extinction) + 1 / extinction);
     result.free_path = std::min(result.free_path, 1 / extinction);
   }
   return result;

@@ -14,8 +14,10 @@ struct DiffuseMedium {
   Rgb reflectance;                        // the share of what entered a thick flat body that comes out again
   float reach;                            // metres: the largest radius of the profiles
   float inverse_c;                        // SubsurfaceExit::inverse_c
-  float diffusion_length;  // metres: 1 / sigma_tr, the largest of the channels; may be infinite
-  float free_path;         // metres: 1 / sigma_t', the smallest of the channels
+  // Metres: the diffusion length 1 / sigma_tr and a mean free path, the largest of the channels; may be
+  // infinite. Diffusion is wrong where a body is as thin, or as bent, as some of these.
+  float blur;
+  float free_path;  // metres: 1 / sigma_t', the smallest of the channels
 };
 
 /// With the model that is asked for; for Subsurface::automatic that of photon beams, scaled so that a thick
