@@ -1,6 +1,7 @@
 #include "integrators/subsurface.h"
 
 #include "materials/diffusion.h"
+#include "materials/fresnel.h"
 #include "materials/half_space.h"
 #include "materials/subsurface_exit.h"
 #include "renderer/base/sampling.h"
@@ -21,19 +22,30 @@ Diffusion model_of(Subsurface method) {
   }
 }
 
+/// What a thick flat body gives back of light that has got in, one channel.
+double reflectance_of(const Medium& medium, double albedo) {
+  if (!medium.diffuse_interface) return half_space_reflectance(albedo, medium.ior);
+  return diffuse_half_space_reflectance(albedo, 2 * fresnel_moment(medium.ior, 1));
+}
+
 DiffuseMedium make_diffuse_medium(const Medium& medium, Subsurface method) {
-  DiffuseMedium result{{}, Rgb(0, 0, 0), 0, SubsurfaceExit::make_inverse_c(medium.ior), 0, kInfinity};
-  const Rgb scattering = medium.reduced_scattering();
+  DiffuseMedium result{{}, Rgb(0, 0, 0), SubsurfaceExit::make_inverse_c(medium.ior), 0, kInfinity};
+  // The models are for light that goes in at normal incidence: where an interface spreads it, their shape
+  // alone is of use.
+  const bool scaled = method == Subsurface::automatic || medium.diffuse_interface;
+  const float eta = medium.diffuse_interface ? 1 : medium.ior;
   for (int k = 0; k < 3; ++k) {
-    const float absorption = medium.absorption[k], extinction = absorption + scattering[k];
-    if (scattering[k] == 0) continue;
-    RadialProfile& profile = result.profiles[std::size_t(k)];
-    profile = make_profile(model_of(method), absorption, scattering[k], medium.ior,
-                           method == Subsurface::automatic);
-    result.reflectance[k] = float(half_space_reflectance(scattering[k] / extinction, medium.ior));
-    result.reach = std::max(result.reach, profile.max_radius());
-    result.blur = std::max(result.blur, 1 / std::sqrt(3 * absorption * extinction) + 1 / extinction);
-    result.free_path = std::min(result.free_path, 1 / extinction);
+    const double extinction = double(medium.absorption[k]) + medium.reduced_scattering()[k];
+    const double albedo = medium.reduced_scattering()[k] / extinction;
+    if (!(albedo > 0)) continue;
+    const double reflectance = reflectance_of(medium, albedo);
+    result.profiles[std::size_t(k)] =
+        RadialProfile(make_diffusion(model_of(method), albedo, eta), 1 / extinction,
+                      scaled ? reflectance : diffusion_reflectance(model_of(method), albedo, eta));
+    result.reflectance[k] = float(reflectance);
+    const double diffusion_length = 1 / std::sqrt(3 * medium.absorption[k] * extinction);
+    result.blur = std::max(result.blur, float(diffusion_length + 1 / extinction));
+    result.free_path = std::min(result.free_path, float(1 / extinction));
   }
   return result;
 }

@@ -12,7 +12,6 @@ namespace parian {
 struct DiffuseMedium {
   std::array<RadialProfile, 3> profiles;  // by colour channel
   Rgb reflectance;                        // the share of what entered a thick flat body that comes out again
-  float reach;                            // metres: the largest radius of the profiles
   float inverse_c;                        // SubsurfaceExit::inverse_c
   // Metres: the diffusion length 1 / sigma_tr and a mean free path, the largest of the channels; may be
   // infinite. Diffusion is wrong where a body is as thin, or as bent, as some of these.

@@ -1,7 +1,8 @@
-/// Models of the diffusion of light in a half-space: R_d(r), the share per area of what went in at a point,
-/// at normal incidence, that comes out at distance r.
+/// Models of the diffusion of light in a half-space: R_d(r), the share per area of the light that went in at
+/// a point of a plane, at normal incidence and past the interface, that comes out at distance r.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "materials/radial_profile.h"
@@ -16,17 +17,23 @@ enum class Diffusion : std::uint8_t {
   photon_beam     // Habel, Christensen, Jarosz 2013, Photon Beam Diffusion
 };
 
-/// R_d(r) in units of the reduced mean free path, for r > 0: of a medium with reduced albedo sigma_s' /
-/// sigma_t' in [0, 1] below a smooth interface of index eta >= 1. The internal reflectance is Fresnel's
-/// integral itself.
+/// R_d as a function of r >= 0, in units of the reduced mean free path 1 / sigma_t': of a medium of reduced
+/// albedo sigma_s' / sigma_t' in [0, 1] below a smooth interface of index eta >= 1. Moments of Fresnel's
+/// reflectance are exact, not the papers' fits. What has a pole at 0 is cut off at a millionth.
 std::function<double(double)> make_diffusion(Diffusion model, double albedo, double eta);
+
+/// The same at one distance.
+inline double eval_diffusion(Diffusion model, double albedo, double eta, double r) {
+  return make_diffusion(model, albedo, eta)(r);
+}
 
 /// The integral of R_d over the plane.
 double diffusion_reflectance(Diffusion model, double albedo, double eta);
 
-/// The profile of one channel; coefficients per metre, of which one at least is not 0. `scaled`: to what such
-/// a half-space really gives back (half_space_reflectance()), which the models miss by some percent.
-RadialProfile make_profile(Diffusion model, double absorption, double reduced_scattering, double eta,
+/// The profile of one channel; coefficients per metre; black where nothing scatters. `scaled`: so that the
+/// total is what such a half-space really gives back (half_space_reflectance()), which the models miss by
+/// some percent.
+RadialProfile make_profile(Diffusion model, float absorption, float reduced_scattering, float eta,
                            bool scaled);
 
 }  // namespace parian

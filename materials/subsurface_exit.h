@@ -2,7 +2,6 @@
 #pragma once
 
 #include "materials/fresnel.h"
-#include "materials/half_space.h"
 #include "materials/lobe.h"
 #include "renderer/base/sampling.h"
 

@@ -24,6 +24,7 @@ float scattering_albedo(float color, float anisotropy) {
 
 Medium make_medium(const Material& m) {
   Medium medium{m.ior, m.dispersion, Rgb(0, 0, 0), m.priority};
+  medium.diffuse_interface = !m.subsurface && m.diffuse_transmission;
   medium.dense = m.subsurface || m.diffuse_transmission;
   if (m.subsurface) {
     medium.absorption = m.subsurface->absorption;

@@ -20,6 +20,8 @@ struct Medium {
   float anisotropy = 0;  // mean cosine of a scattering (Henyey and Greenstein)
   // Its makers say that light in it is scattered so often that diffusion describes it.
   bool dense = false;
+  // Its interface does not refract what it lets through but spreads it (KHR_materials_diffuse_transmission).
+  bool diffuse_interface = false;
 
   bool scatters() const { return max_component(scattering) > 0; }
   /// The scattering coefficient that without anisotropy would diffuse light alike (similarity).

@@ -278,6 +278,29 @@ TEST(Automatic, OfABroadBodyIsDiffusionThatIsRight) {
   }
 }
 
+// Behind glTF's diffuse transmission a thick body has about the colour that it asks for, walked or diffused.
+TEST(Automatic, HasTheColourOfGltfsVolume) {
+  std::array<std::array<Mean, 3>, 2> means;
+  for (const Subsurface method : {Subsurface::automatic, Subsurface::random_walk}) {
+    Scene scene;
+    Material m;
+    m.metallic = 0;
+    m.diffuse_transmission =
+        DiffuseTransmission{.factor = 1, .color = Rgb(1, 1, 1), .texture = {}, .color_texture = {}};
+    m.volume = Volume{.thickness = 0, .attenuation_color = Rgb(0.5f), .attenuation_distance = 1};
+    m.scatter = VolumeScatter{.multiscatter_color = {0.9f, 0.5f, 0.1f}, .anisotropy = 0};
+    add_block(scene, m, 1000, 5000);
+    set_white_sky(scene);
+    add_probe_above(scene, {0, 0, 0});
+    const Picture p = diffused(scene, 256, method);
+    for (int k = 0; k < 3; ++k) means[method == Subsurface::random_walk][std::size_t(k)] = mean_of(p, k);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(means[0][k].value, means[1][k].value, 0.015) << k;
+    EXPECT_NEAR(means[1][k].value, Rgb(0.9f, 0.5f, 0.1f)[int(k)], 0.04) << k;
+  }
+}
+
 // A small body: auto walks, and loses nothing where nothing absorbs.
 TEST(Automatic, OfASmallBodyIsTheWalk) {
   Scene scene;

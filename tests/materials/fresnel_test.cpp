@@ -160,6 +160,43 @@ TEST(Fresnel, ConductorIsFiniteForAnyIndex) {
       }
 }
 
+/// The integral of F mu^k by the midpoint rule, in a variable in which the root at the critical angle is
+/// smooth.
+double moment(double eta, int k) {
+  const double critical = std::sqrt(std::max(0.0, 1 - eta * eta));
+  constexpr int kSteps = 100000;
+  double sum = std::pow(critical, k + 1) / (k + 1);  // all is reflected there
+  for (int i = 0; i < kSteps; ++i) {
+    const double u = (i + 0.5) / kSteps, mu = critical + (1 - critical) * u * u;
+    sum += double(dielectric(mu, eta)) * std::pow(mu, k) * 2 * u * (1 - critical) / kSteps;
+  }
+  return sum;
+}
+
+TEST(Fresnel, MomentsAreTheIntegrals) {
+  for (const double eta : {0.5, 1 / 1.5, 1 / 1.3, 0.99, 1.01, 1.3, 1.5, 2.0})
+    for (const int k : {0, 1, 2, 3}) EXPECT_NEAR(fresnel_moment(eta, k), moment(eta, k), 1e-9) << eta << k;
+  for (const int k : {0, 1, 2}) EXPECT_EQ(fresnel_moment(1, k), 0);
+}
+
+// Of diffuse light, from inside and from outside. Catches a moment without its cosine, or that of the other
+// side.
+TEST(Fresnel, DiffuseReflectance) {
+  for (const auto& [eta, inside, outside] :
+       {std::tuple(1.3, .444457, .061132), {1.5, .596346, .091778}, {2.0, .790149, .160597}}) {
+    EXPECT_NEAR(2 * fresnel_moment(1 / eta, 1), inside, 1e-6);
+    EXPECT_NEAR(2 * fresnel_moment(eta, 1), outside, 1e-6);
+    // What is in equilibrium on both sides.
+    EXPECT_NEAR(1 - 2 * fresnel_moment(1 / eta, 1), (1 - 2 * fresnel_moment(eta, 1)) / (eta * eta), 1e-12);
+  }
+}
+
+TEST(Fresnel, ExactDielectricIsTheOtherInDoublePrecision) {
+  for (const double eta : {0.5, 1 / 1.3, 1.0, 1.0001, 1.5})
+    for (const double c : {1.0, 0.9, 0.64, 0.5, 0.1, 1e-4})
+      EXPECT_NEAR(fresnel_dielectric_exact(c, eta), double(dielectric(c, eta)), 1e-12) << eta << " at " << c;
+}
+
 // "+ refracted cosine" leaves on the wrong side; a lost square root or 1 / eta break the length.
 TEST(Fresnel, RefractsBySnell) {
   TestRandom random(1);

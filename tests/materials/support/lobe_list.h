@@ -83,6 +83,7 @@ inline std::vector<TestLobe> make_lobes(float alpha) {
   add("Lambert", Lambert{brown});
   const DiffuseTransmissionLobe leaf{{0.1f, 0.4f, 0.2f}, {0.3f, 0.5f, 0.1f}};
   add("DiffuseTransmission", leaf).below = Below::mirrored;
+  add("SubsurfaceExit", SubsurfaceExit{1.4f, SubsurfaceExit::make_inverse_c(1.4f), brown}).reciprocal = false;
   TestLobe& cloth = add("Sheen", Sheen{white, std::max(alpha, Sheen::kMinAlpha)});
   cloth.above = TestLobe::Above::about_normal;
   cloth.most_weight = 100;  // uniform samples of a rim of some degrees
