@@ -31,6 +31,7 @@ struct Path {
   float scale;
   float wavelength;  // nanometres; 0: of all
   int passed;        // surfaces that were none, since what is before and behind them is the same
+  bool scattered;    // on its last ray, by a medium
 
   const Ray& ray() const { return camera->ray; }
   const Hit& hit() const { return camera->hit; }
@@ -70,6 +71,7 @@ class Tracer {
     path.scale = 1;
     path.wavelength = 0;
     path.passed = 0;
+    path.scattered = false;
   }
 
   /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
@@ -106,6 +108,8 @@ class Tracer {
     // Scatter: light sampled directly, then a direction to go on.
     const float eta = boundary ? relative_ior(path, *boundary) : 1;
     const Bsdf bsdf = make_bsdf(context_.scene, surface, settings_.microfacets, eta);
+    if (kScattering && boundary && leaves_anyhow(path, surface, *boundary))
+      return leave_anyhow(path, surface, bsdf, *boundary, numbers.direction) && survive(path);
     if (!scatter(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers)) return false;
     if (boundary && bsdf.beyond(path.ray().d) && !enter(path, depth, surface, *boundary)) return false;
     return survive(path);
@@ -143,7 +147,8 @@ class Tracer {
   void wander(Path& path, const Medium& medium) {
     const Walk result =
         walk(context_, medium, path.camera->ray, path.camera->hit, path.weight, path.sampler(), counts_);
-    if (result == Walk::straight) return;
+    path.scattered = result != Walk::straight;
+    if (!path.scattered) return;
     path.pdf = kInfinity;
     if (result == Walk::scattered) return;
     path.weight = Rgb(0, 0, 0);
@@ -223,23 +228,47 @@ class Tracer {
     return !context_.accel.occluded({ray_origin(surface, d), d, depth}, path.sampler().key());
   }
 
+  /// Whether a path that has come through a dense body from inside may leave it in any direction, as diffused
+  /// light does: then light can be sampled there, which a smooth interface lets no other path do. Only for
+  /// Subsurface::automatic: light that was scattered often is as diffuse as that inside, and what the
+  /// interface lets through of it is SubsurfaceExit; of light that was scattered once it is not.
+  bool leaves_anyhow(const Path& path, const Surface& surface, const Boundary& boundary) const {
+    return settings_.subsurface == Subsurface::automatic && path.scattered && !boundary.after &&
+           boundary.before && boundary.before->dense &&
+           boundary.before == context_.world.medium(*surface.part);
+  }
+
+  /// Goes on from inside a dense body's surface: back into it, or out by SubsurfaceExit.
+  bool leave_anyhow(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary& boundary,
+                    const Vec2f& u) {
+    path.scattered = false;
+    if (!sample_direction(path, surface, bsdf, u)) return false;
+    if (!bsdf.beyond(path.ray().d)) return true;
+    path.media = boundary.beyond;
+    path.scale = scale_in(path, nullptr);
+    Surface outside =
+        make_surface(context_.scene, context_.world, path.hit(), surface.front ? surface.ng : -surface.ng);
+    if (outside.part->inside_out) turn(outside);
+    return leave(path, outside, diffuse_media_[std::size_t(surface.part->medium)], Rgb(1, 1, 1));
+  }
+
   /// Goes on from where the light that went in at `surface` comes out of the body; false where the path ends.
   bool emerge(Path& path, const Surface& surface, const DiffuseMedium& medium, Inside inside) {
     if (inside == Inside::returns) {
       path.weight *= medium.reflectance;
-      return leave(path, surface, medium);
+      return leave(path, surface, medium, eval_crossing_tint(context_.scene, surface));
     }
     ++counts_.scattered;
     const std::optional<Emergence> place =
         sample_emergence(context_, medium, surface, path.hit(), path.weight, path.sampler());
     if (!place) return false;
     path.weight *= place->weight;
-    return leave(path, place->surface, medium);
+    return leave(path, place->surface, medium, eval_crossing_tint(context_.scene, place->surface));
   }
 
-  bool leave(Path& path, const Surface& surface, const DiffuseMedium& medium) {
-    const Bsdf bsdf(surface, SubsurfaceExit{surface.part->material->ior, medium.inverse_c,
-                                            eval_crossing_tint(context_.scene, surface)});
+  /// Goes on from a surface that is seen from outside.
+  bool leave(Path& path, const Surface& surface, const DiffuseMedium& medium, const Rgb& tint) {
+    const Bsdf bsdf(surface, SubsurfaceExit{surface.part->material->ior, medium.inverse_c, tint});
     const Vec2f light = path.sampler().next2();
     return scatter(path, surface, bsdf, nullptr, {light, path.sampler().next2()});
   }

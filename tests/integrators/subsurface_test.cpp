@@ -296,7 +296,7 @@ TEST(Automatic, HasTheColourOfGltfsVolume) {
     for (int k = 0; k < 3; ++k) means[method == Subsurface::random_walk][std::size_t(k)] = mean_of(p, k);
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(means[0][k].value, means[1][k].value, 0.015) << k;
+    EXPECT_NEAR(means[0][k].value, means[1][k].value, 0.025) << k;
     EXPECT_NEAR(means[1][k].value, Rgb(0.9f, 0.5f, 0.1f)[int(k)], 0.04) << k;
   }
 }

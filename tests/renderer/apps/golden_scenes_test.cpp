@@ -10,12 +10,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Picture render(const Scene& scene, int width, int height, std::uint32_t spp) {
+Picture render(const Scene& scene, int width, int height, std::uint32_t spp,
+               Subsurface subsurface = Subsurface::automatic) {
   RenderSettings settings;
   settings.width = width;
   settings.height = height;
   settings.spp = spp;
-  Session session(std::make_shared<const Scene>(scene), settings, make_integrator("path", {}));
+  Session session(std::make_shared<const Scene>(scene), settings,
+                  make_integrator("path", {.subsurface = subsurface}));
   session.start();
   session.wait();
   EXPECT_EQ(session.stats().rays.dropped, 0u);
@@ -66,10 +68,20 @@ void expect_mean(const Picture& p, const std::array<double, 4>& region, const js
   }
 }
 
+/// The method that a scene's values are for, as `--sss` names it.
+Subsurface subsurface_of(const json& expected) {
+  const std::string name = expected.value("sss", "auto");
+  if (name == "auto") return Subsurface::automatic;
+  if (name == "random-walk") return Subsurface::random_walk;
+  EXPECT_EQ(name, "dipole");
+  return Subsurface::dipole;
+}
+
 /// Renders `name` and checks all that its expected.json says.
 void check_scene(const std::string& name) {
   const json expected = json::parse(read_bytes(PARIAN_SOURCE_DIR "/scenes/" + name + "/expected.json"));
-  const Picture p = render(load(name), expected["size"][0], expected["size"][1], expected["spp"]);
+  const Picture p =
+      render(load(name), expected["size"][0], expected["size"][1], expected["spp"], subsurface_of(expected));
   if (!expected["mean"].is_null())
     expect_mean(p, {0, 0, 1, 1}, expected["mean"], expected["tolerance"], name + ", whole picture");
   if (!expected.contains("pixels")) return;
