@@ -1,10 +1,10 @@
 #include "integrators/subsurface.h"
 
 #include "materials/diffusion.h"
-#include "materials/fresnel.h"
-#include "materials/half_space.h"
 #include "materials/subsurface_exit.h"
 #include "renderer/base/sampling.h"
+#include "renderer/scene/fresnel.h"
+#include "renderer/scene/half_space.h"
 
 namespace parian {
 namespace {

@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "materials/albedo.h"
-#include "materials/fresnel.h"
 #include "materials/ggx.h"
 #include "materials/lobe.h"
+#include "renderer/scene/fresnel.h"
 
 namespace parian {
 

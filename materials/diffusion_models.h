@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/fresnel.h"
-#include "materials/half_space.h"
-#include "materials/quadrature.h"
+#include "renderer/base/quadrature.h"
+#include "renderer/scene/fresnel.h"
+#include "renderer/scene/half_space.h"
 
 namespace parian {
 

@@ -1,6 +1,6 @@
 #include "materials/iridescence.h"
 
-#include "materials/fresnel.h"
+#include "renderer/scene/fresnel.h"
 
 namespace parian {
 namespace {

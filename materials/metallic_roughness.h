@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "materials/facet_bounces.h"
-#include "materials/fresnel.h"
 #include "materials/ggx.h"
 #include "materials/lobe.h"
 #include "renderer/base/sampling.h"
+#include "renderer/scene/fresnel.h"
 
 namespace parian {
 

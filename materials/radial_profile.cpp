@@ -25,11 +25,11 @@ RadialProfile::RadialProfile(const std::function<double(double)>& profile, doubl
   const double beyond = 2 * std::numbers::pi * kLast * kLast * values.back();
   const double all = std::accumulate(masses.begin(), masses.end(), beyond), scale = total / all;
 
-  // As many cells as hold enough, two at least: eval() looks at the next node.
+  // As many cells as hold enough: never the disk alone, to which the first ring adds some percent.
   constexpr double kCut = 1e-4;
   std::size_t cells = 0;
   double mass = 0;
-  while (cells < masses.size() && (cells < 2 || mass < (1 - kCut) * all)) mass += masses[cells++];
+  while (cells < masses.size() && mass < (1 - kCut) * all) mass += masses[cells++];
   cells_ = Distribution1D(std::vector<float>(masses.begin(), masses.begin() + std::ptrdiff_t(cells)));
   for (std::size_t i = 0; i < cells; ++i) {
     const double a = inner_radius(i), b = node(i), area = std::numbers::pi * (b - a) * (b + a) * unit * unit;

@@ -1,9 +1,9 @@
 /// How diffused light leaves a dense body.
 #pragma once
 
-#include "materials/fresnel.h"
 #include "materials/lobe.h"
 #include "renderer/base/sampling.h"
+#include "renderer/scene/fresnel.h"
 
 namespace parian {
 

@@ -1,6 +1,7 @@
 /// read_material_extensions().
 #include "scene_io/gltf_material_extensions.h"
 
+#include "renderer/scene/half_space.h"
 #include "scene_io/metals.h"
 #include "scene_io/scattering_materials.h"
 
@@ -113,6 +114,13 @@ ScatteringMaterial read_scattering_material(const Value& source) {
   m.reduced_scattering = rgb_or(source, "sigmaSPrime", m.reduced_scattering);
   m.absorption = rgb_or(source, "sigmaA", m.absorption);
   m.eta = real_or(source, "eta", m.eta);
+  if (!source.Has("color")) return m;
+  const Rgb color = rgb_or(source, "color", {}), path = rgb_or(source, "meanFreePath", {});
+  for (int k = 0; k < 3; ++k) {
+    const double albedo = half_space_albedo(color[k], m.eta);
+    m.reduced_scattering[k] = float(albedo / path[k]);
+    m.absorption[k] = float((1 - albedo) / path[k]);
+  }
   return m;
 }
 

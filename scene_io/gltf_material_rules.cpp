@@ -24,7 +24,8 @@ class MaterialRules {
     check_ior("KHR_materials_ior");
     check_scatter("KHR_materials_volume_scatter");
     check_named("PARIAN_materials_conductor", {"eta", "k"}, {});
-    check_named("PARIAN_materials_subsurface", {"sigmaA", "sigmaSPrime"}, {"eta"});
+    if (!check_colored("PARIAN_materials_subsurface"))
+      check_named("PARIAN_materials_subsurface", {"sigmaA", "sigmaSPrime"}, {"eta"});
     refuse_beside("PARIAN_materials_phong", {"PARIAN_materials_conductor"});
     refuse_beside("PARIAN_materials_subsurface",
                   {"PARIAN_materials_phong", "PARIAN_materials_conductor", "KHR_materials_volume_scatter"});
@@ -70,6 +71,19 @@ class MaterialRules {
         fail(fmt::format("/{}/{}", name, key), "3 numbers, each of at least 0, since there is no name");
     }
     for (const char* key : more) refuse(key);
+  }
+
+  /// A body by the colour that it has; false where there is none.
+  bool check_colored(const char* name) const {
+    if (!has(name) || !(extensions_[name].contains("color") || extensions_[name].contains("meanFreePath")))
+      return false;
+    for (const char* key : {"color", "meanFreePath"})
+      if (!extensions_[name].contains(key))
+        fail(fmt::format("/{}/{}", name, key), "3 numbers, since color and meanFreePath need each other");
+    for (const char* key : {"name", "sigmaA", "sigmaSPrime"})
+      if (extensions_[name].contains(key))
+        fail(fmt::format("/{}/{}", name, key), "no such member beside color");
+    return true;
   }
 
   void refuse_beside(const char* name, Keys others) const {

@@ -63,7 +63,8 @@ Field material_extensions() {
               {text("name", metal_names()), numbers("eta", 3).at_least(0), numbers("k", 3).at_least(0)}),
        object("PARIAN_materials_subsurface",
               {text("name", scattering_material_names()), numbers("sigmaA", 3).between(0, kLarge),
-               numbers("sigmaSPrime", 3).between(0, kLarge), number("eta").at_least(1),
+               numbers("sigmaSPrime", 3).between(0, kLarge), color("color"),
+               numbers("meanFreePath", 3).between(1 / kLarge, kLarge), number("eta").at_least(1),
                number("scale").between(1 / kLarge, kLarge)}),
        object("PARIAN_materials_priority", {integer("priority").between(-kMaxInt, kMaxInt)})});
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "materials/half_space.h"
+#include "renderer/scene/half_space.h"
 #include "tests/integrators/support/bodies.h"
 #include "tests/integrators/support/render.h"
 #include "tests/support/statistics.h"

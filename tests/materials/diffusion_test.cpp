@@ -6,7 +6,7 @@
 
 #include "materials/diffusion_models.h"
 #include "tests/materials/support/classical_dipole.h"
-#include "tests/materials/support/half_space_walk.h"
+#include "tests/support/half_space_walk.h"
 
 namespace parian {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <complex>
 
-#include "materials/fresnel.h"
+#include "renderer/scene/fresnel.h"
 #include "tests/support/statistics.h"
 
 namespace parian {

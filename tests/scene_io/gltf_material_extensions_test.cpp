@@ -223,6 +223,17 @@ TEST_F(GltfMaterialExtensions, ReadsSubsurfaceByName) {
   EXPECT_EQ(m.ior, 1.5f);
 }
 
+// The coefficients are those with which a thick body gives back the colour.
+TEST_F(GltfMaterialExtensions, ReadsSubsurfaceByColour) {
+  const json given = {{"color", {0, .291, 1}}, {"meanFreePath", {1, .5, 2}}, {"eta", 1.3}, {"scale", 10}};
+  const Material m = material({{"PARIAN_materials_subsurface", given}});
+  const Rgb scattering = m.subsurface.value().reduced_scattering, absorption = m.subsurface->absorption;
+  expect_close(scattering + absorption, {100, 200, 50});
+  EXPECT_EQ(scattering.x, 0);
+  EXPECT_NEAR(scattering.y / 200, 0.9, 3e-4);
+  EXPECT_EQ(absorption.z, 0);
+}
+
 // What the schema lets through is a scene that validate() takes.
 TEST_F(GltfMaterialExtensions, ReadsSubsurfaceAtTheEndsOfItsRanges) {
   const json most = {{"sigmaA", {1e9, 1e9, 1e9}}, {"sigmaSPrime", {1e9, 1e9, 1e9}}, {"scale", 1e-9}};

@@ -1,5 +1,5 @@
 /// Fresnel and refraction.
-#include "materials/fresnel.h"
+#include "renderer/scene/fresnel.h"
 #include "tests/bench/material_stability/report.h"
 #include "tests/bench/material_stability/textbook.h"
 

@@ -97,8 +97,10 @@ TEST(SubsurfaceMedium, HasTheNumbersOfItsMaterial) {
                         .absorption = {1, 2, 3},
                         .priority = 3,
                         .scattering = {400, 500, 600},
+                        .extinction = {401, 502, 603},
                         .anisotropy = 0,
-                        .dense = true};
+                        .dense = true,
+                        .diffuse_interface = false};
   EXPECT_EQ(make_medium(m), expected);
   m.volume = Volume{.thickness = 0, .attenuation_color = Rgb(0.5f), .attenuation_distance = 1};
   EXPECT_EQ(make_medium(m), expected);

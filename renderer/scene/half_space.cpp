@@ -1,10 +1,10 @@
-#include "materials/half_space.h"
+#include "renderer/scene/half_space.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "materials/fresnel.h"
-#include "materials/quadrature.h"
+#include "renderer/base/quadrature.h"
+#include "renderer/scene/fresnel.h"
 
 namespace parian {
 namespace {

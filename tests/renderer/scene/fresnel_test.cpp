@@ -1,4 +1,4 @@
-#include "materials/fresnel.h"
+#include "renderer/scene/fresnel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "materials/fresnel.h"
+#include "renderer/scene/fresnel.h"
 
-#include "materials/quadrature.h"
+#include "renderer/base/quadrature.h"
 
 namespace parian {
 

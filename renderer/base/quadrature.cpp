@@ -1,4 +1,4 @@
-#include "materials/quadrature.h"
+#include "renderer/base/quadrature.h"
 
 #include <cmath>
 #include <numbers>

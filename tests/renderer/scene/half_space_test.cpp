@@ -1,8 +1,8 @@
-#include "materials/half_space.h"
+#include "renderer/scene/half_space.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/materials/support/half_space_walk.h"
+#include "tests/support/half_space_walk.h"
 #include "tests/support/statistics.h"
 
 namespace parian {
