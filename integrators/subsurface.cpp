@@ -35,15 +35,14 @@ DiffuseMedium make_diffuse_medium(const Medium& medium, Subsurface method) {
   const bool scaled = method == Subsurface::automatic || medium.diffuse_interface;
   const float eta = medium.diffuse_interface ? 1 : medium.ior;
   for (int k = 0; k < 3; ++k) {
-    const double extinction = double(medium.absorption[k]) + medium.reduced_scattering()[k];
-    const double albedo = medium.reduced_scattering()[k] / extinction;
-    if (!(albedo > 0)) continue;
-    const double reflectance = reflectance_of(medium, albedo);
-    result.profiles[std::size_t(k)] =
-        RadialProfile(make_diffusion(model_of(method), albedo, eta), 1 / extinction,
-                      scaled ? reflectance : diffusion_reflectance(model_of(method), albedo, eta));
+    const float absorption = medium.absorption[k], scattering = medium.reduced_scattering()[k];
+    if (scattering == 0) continue;
+    const double extinction = double(absorption) + scattering;
+    const double reflectance = reflectance_of(medium, scattering / extinction);
+    result.profiles[std::size_t(k)] = make_profile(model_of(method), absorption, scattering, eta,
+                                                   scaled ? std::optional(reflectance) : std::nullopt);
     result.reflectance[k] = float(reflectance);
-    const double diffusion_length = 1 / std::sqrt(3 * medium.absorption[k] * extinction);
+    const double diffusion_length = 1 / std::sqrt(3 * absorption * extinction);
     result.blur = std::max(result.blur, float(diffusion_length + 1 / extinction));
     result.free_path = std::min(result.free_path, float(1 / extinction));
   }

@@ -45,11 +45,11 @@ double diffusion_reflectance(Diffusion model, double albedo, double eta) {
 }
 
 RadialProfile make_profile(Diffusion model, float absorption, float reduced_scattering, float eta,
-                           bool scaled) {
+                           std::optional<double> total) {
   if (!(reduced_scattering > 0)) return {};
   const double extinction = double(absorption) + reduced_scattering, albedo = reduced_scattering / extinction;
   return {make_diffusion(model, albedo, eta), 1 / extinction,
-          scaled ? half_space_reflectance(albedo, eta) : diffusion_reflectance(model, albedo, eta)};
+          total ? *total : diffusion_reflectance(model, albedo, eta)};
 }
 
 }  // namespace parian

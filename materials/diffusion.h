@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "materials/radial_profile.h"
 
@@ -30,10 +31,10 @@ inline double eval_diffusion(Diffusion model, double albedo, double eta, double 
 /// The integral of R_d over the plane.
 double diffusion_reflectance(Diffusion model, double albedo, double eta);
 
-/// The profile of one channel; coefficients per metre; black where nothing scatters. `scaled`: so that the
-/// total is what such a half-space really gives back (half_space_reflectance()), which the models miss by
-/// some percent.
+/// The profile of one channel; coefficients per metre; black where nothing scatters. `total`: what its
+/// integral is made to be, in place of the model's own, which misses what such a half-space really gives back
+/// (half_space_reflectance()) by some percent.
 RadialProfile make_profile(Diffusion model, float absorption, float reduced_scattering, float eta,
-                           bool scaled);
+                           std::optional<double> total = {});
 
 }  // namespace parian
