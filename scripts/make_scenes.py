@@ -14,7 +14,7 @@ from typing import Any
 
 from gltf_builder import Gltf, to_json
 from scene_recipes import cabinet, classics, furnaces, garden, glass, lens, shapes, single_lights, still_life, sunlight
-from scene_recipes import many_lights, materials, surfaces
+from scene_recipes import many_lights, materials, subsurface, subsurface_bust, subsurface_still_life, surfaces
 
 SCENES = {
     "cornell-box": classics.cornell_box,
@@ -55,6 +55,17 @@ SCENES = {
     "glass-balls": glass.glass_balls,
     "glass-inside": glass.glass_inside,
     "glass-prism": glass.glass_prism,
+    "subsurface-bust": subsurface_bust.subsurface_bust,
+    "subsurface-still-life": subsurface_still_life.subsurface_still_life,
+    "subsurface-balls": subsurface.subsurface_balls,
+    "subsurface-blocks": subsurface.subsurface_blocks,
+    "subsurface-slabs": subsurface.subsurface_slabs,
+    "subsurface-edge": subsurface.subsurface_edge,
+    "subsurface-shadow": subsurface.subsurface_shadow,
+    "subsurface-touching": subsurface.subsurface_touching,
+    "subsurface-walk": subsurface.subsurface_walk,
+    "subsurface-auto": subsurface.subsurface_auto,
+    "subsurface-furnace": subsurface.subsurface_furnace,
 }
 
 

@@ -143,10 +143,11 @@ TEST(RadialProfile, IsFiniteAtAnyScaleAndDistance) {
         for (const float r : {-1.0f, 0.0f, 1e-30f, 1e-4f * end, 0.3f * end, 0.999f * end}) {
           ASSERT_TRUE(std::isfinite(p.eval(r)) && p.eval(r) > 0) << r << " " << unit;
           ASSERT_TRUE(std::isfinite(p.pdf(r)) && p.pdf(r) > 0) << r << " " << unit;
-          // Just off the nodes, where rounding could put it into the next cell.
-          const float metres = 1.003f * float(r / unit), back = float(metres * unit);
-          ASSERT_NEAR(p.eval(back) * unit * unit / of_metres.eval(metres), 1, 1e-3) << r << " " << unit;
-          ASSERT_NEAR(p.pdf(back) * unit * unit / of_metres.pdf(metres), 1, 1e-3) << r << " " << unit;
+        }
+        for (const double x : {1e-5, 0.01, 0.3, 1.01, 2.7}) {  // not where rounding decides between cells
+          const float r = float(x * unit), m = float(x);
+          ASSERT_NEAR(p.eval(r) * unit * unit / of_metres.eval(m), 1, 1e-5) << x << " " << unit;
+          ASSERT_NEAR(p.pdf(r) * unit * unit / of_metres.pdf(m), 1, 1e-5) << x << " " << unit;
         }
         for (const float r : {1.001f * end, 1e30f, kInfinity, std::nanf("")})
           ASSERT_TRUE(p.eval(r) == 0 && p.pdf(r) == 0) << r;
