@@ -29,7 +29,9 @@ double reflectance_of(const Medium& medium, double albedo) {
 }
 
 DiffuseMedium make_diffuse_medium(const Medium& medium, Subsurface method) {
-  DiffuseMedium result{{}, Rgb(0, 0, 0), SubsurfaceExit::make_inverse_c(medium.ior), 0, kInfinity};
+  DiffuseMedium result{{}, Rgb(0, 0, 0), 0, 0, kInfinity};
+  if (medium.ior < 1) return result;  // 0: infinite, nothing gets in
+  result.inverse_c = SubsurfaceExit::make_inverse_c(medium.ior);
   // The models are for light that goes in at normal incidence: where an interface spreads it, their shape
   // alone is of use.
   const bool scaled = method == Subsurface::automatic || medium.diffuse_interface;

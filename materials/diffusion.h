@@ -23,11 +23,6 @@ enum class Diffusion : std::uint8_t {
 /// reflectance are exact, not the papers' fits. What has a pole at 0 is cut off at a millionth.
 std::function<double(double)> make_diffusion(Diffusion model, double albedo, double eta);
 
-/// The same at one distance.
-inline double eval_diffusion(Diffusion model, double albedo, double eta, double r) {
-  return make_diffusion(model, albedo, eta)(r);
-}
-
 /// The integral of R_d over the plane.
 double diffusion_reflectance(Diffusion model, double albedo, double eta);
 

@@ -23,8 +23,11 @@ struct Crossings {
   /// Sampling with a Reservoir, algorithm R).
   void add(const Hit& hit) {
     if (body && !(hit.placement == body->placement && hit_part(*world, hit).medium == body->medium)) return;
-    std::size_t place = count++;
-    if (place >= hits.size()) place = hash32(random, std::uint32_t(count)) % count;
+    if (count < hits.size()) [[likely]] {
+      hits[count++] = hit;
+      return;
+    }
+    const std::size_t place = hash32(random, std::uint32_t(++count)) % count;
     if (place < hits.size()) hits[place] = hit;
   }
 };

@@ -105,7 +105,8 @@ Vec2i default_size(const Camera& camera) {
   return {960, std::clamp(int(std::lround(960 / aspect)), 1, 65536)};
 }
 
-const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal", "depth", "object", "sss"};
+const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal",
+                                           "depth",    "object",  "sss"};
 
 FilmLayers film_layers(const std::vector<std::string>& names) {
   FilmLayers layers{false, false, false};

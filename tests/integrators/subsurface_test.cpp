@@ -301,6 +301,19 @@ TEST(Automatic, HasTheColourOfGltfsVolume) {
   }
 }
 
+// The walk of auto leaves in other directions than that of random-walk, and no more often.
+TEST(Automatic, OfASmallBodyAbsorbsAsTheWalkDoes) {
+  std::array<Mean, 2> means;
+  for (const Subsurface method : {Subsurface::automatic, Subsurface::random_walk}) {
+    Scene scene;
+    add_shape(scene, make_sphere(3), add_material(scene, make_dense(0.9f, 1.5f)));
+    set_white_sky(scene);
+    add_probe(scene, {0, 0, 0}, {0, 0, 1}, 5, 2.7f);
+    means[method == Subsurface::random_walk] = mean_of(diffused(scene, 256, method), 0);
+  }
+  EXPECT_TRUE(means_agree(means[0], means[1], 0.025));
+}
+
 // A small body: auto walks, and loses nothing where nothing absorbs.
 TEST(Automatic, OfASmallBodyIsTheWalk) {
   Scene scene;

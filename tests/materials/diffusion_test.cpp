@@ -108,12 +108,12 @@ TEST(Diffusion, IsFiniteForEveryAlbedoAndDistance) {
   for (const Diffusion model : kModels)
     for (const double eta : {1.0, 1.3, 3.0})
       for (const double r : {0.0, 1e-9, 1.0, 1e3, 1e6}) {
-        EXPECT_EQ(eval_diffusion(model, 0, eta, r), 0);
+        EXPECT_EQ(make_diffusion(model, 0, eta)(r), 0);
         for (const double albedo : {1e-6, 0.5, 1.0}) {
-          const double value = eval_diffusion(model, albedo, eta, r);
+          const double value = make_diffusion(model, albedo, eta)(r);
           EXPECT_TRUE(std::isfinite(value) && value >= 0) << int(model) << " " << albedo << " " << r;
         }
-        EXPECT_GT(eval_diffusion(model, 1, eta, std::min(r, 50.0)), 0);
+        EXPECT_GT(make_diffusion(model, 1, eta)(std::min(r, 50.0)), 0);
       }
   for (const Diffusion model : kModels) EXPECT_EQ(diffusion_reflectance(model, 0, 1.3), 0);
   EXPECT_NEAR(diffusion_reflectance(Diffusion::dipole, 1, 1.3), 1, 1e-12);
@@ -130,7 +130,7 @@ TEST(Diffusion, MakesProfilesInMetres) {
       EXPECT_NEAR(plain.total() / diffusion_reflectance(model, 0.9, 1.3), 1, 1.1e-4);
       EXPECT_NEAR(scaled.total() / 0.25, 1, 1.1e-4);
       const double square = double(unit) * unit;
-      EXPECT_NEAR(plain.eval(0.5f * unit) * square / eval_diffusion(model, 0.9, 1.3, 0.5), 1, 5e-3);
+      EXPECT_NEAR(plain.eval(0.5f * unit) * square / make_diffusion(model, 0.9, 1.3)(0.5), 1, 5e-3);
     }
 }
 
