@@ -27,7 +27,8 @@ struct Crossings {
       hits[count++] = hit;
       return;
     }
-    const std::size_t place = hash32(random, std::uint32_t(++count)) % count;
+    ++count;
+    const std::size_t place = hash32(random, std::uint32_t(count)) % count;
     if (place < hits.size()) hits[place] = hit;
   }
 };
