@@ -108,8 +108,9 @@ class Tracer {
     // Scatter: light sampled directly, then a direction to go on.
     const float eta = boundary ? relative_ior(path, *boundary) : 1;
     const Bsdf bsdf = make_bsdf(context_.scene, surface, settings_.microfacets, eta);
-    if (kScattering && boundary && leaves_anyhow(path, surface, *boundary))
-      return leave_anyhow(path, surface, bsdf, *boundary, numbers.direction) && survive(path);
+    if constexpr (kScattering)
+      if (boundary && leaves_anyhow(path, surface, *boundary))
+        return leave_anyhow(path, surface, bsdf, *boundary, numbers.direction) && survive(path);
     if (!scatter(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers)) return false;
     if (boundary && bsdf.beyond(path.ray().d) && !enter(path, depth, surface, *boundary)) return false;
     return survive(path);
@@ -185,13 +186,15 @@ class Tracer {
 
   /// Goes through a boundary; false where the path ends.
   bool enter(Path& path, int depth, const Surface& surface, const Boundary& boundary) {
-    if (kScattering && hides(&boundary)) {
-      const DiffuseMedium& medium = diffuse_media_[std::size_t(surface.part->medium)];
-      const Inside inside = choose_inside(path, surface, medium, boundary);
-      if (depth == 0)
-        (inside == Inside::travels ? path.camera->features.walked : path.camera->features.diffused) = 1;
-      if (inside != Inside::travels) return emerge(path, surface, medium, inside);
-      path.pdf = kInfinity;  // what is inside, no light sample could have found
+    if constexpr (kScattering) {
+      if (hides(&boundary)) {
+        const DiffuseMedium& medium = diffuse_media_[std::size_t(surface.part->medium)];
+        const Inside inside = choose_inside(path, surface, medium, boundary);
+        if (depth == 0)
+          (inside == Inside::travels ? path.camera->features.walked : path.camera->features.diffused) = 1;
+        if (inside != Inside::travels) return emerge(path, surface, medium, inside);
+        path.pdf = kInfinity;  // what is inside, no light sample could have found
+      }
     }
     path.media = boundary.beyond;
     path.scale = scale_in(path, boundary.after);
