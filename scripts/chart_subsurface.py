@@ -38,6 +38,13 @@ SCENES = {
     "subsurface-still-life": ("96x54", 2048, (1, 4, 16, 64, 256)),
 }
 
+
+
+def plot(panel: Any, x: list[float], y: list[float], method: str) -> None:
+    width = 2 if method == "auto" else 1
+    panel.plot(x, y, color=METHODS[method], marker="o", markersize=2.5, linewidth=width, label=method)
+
+
 # --- bodies -----------------------------------------------------------------------------------------------------------
 
 
@@ -71,7 +78,8 @@ def shares(program: Path, scene: Gltf, mirrored: float) -> dict[str, float]:
     result = {}
     for method in METHODS:
         settings = ["--size", "8x8", "--spp", "1024", "--max-depth", "1000", "--sss", method]
-        result[method] = (render(program, CHARTS / "body.gltf", settings, CHARTS / "body")[0].mean() - mirrored) / (1 - F0)
+        seen = render(program, CHARTS / "body.gltf", settings, CHARTS / "body")[0].mean()
+        result[method] = (seen - mirrored) / (1 - F0)
     return result
 
 
@@ -80,7 +88,8 @@ def measure_bodies(program: Path) -> Path:
     rows = []
 
     def add(study: str, albedo: float, size: float, shape: Any, sky: Callable, mirrored: float) -> None:
-        rows.append({"study": study, "albedo": albedo, "size": size, **shares(program, body(shape[0], albedo, shape[1], sky), mirrored)})
+        scene = body(shape[0], albedo, shape[1], sky)
+        rows.append({"study": study, "albedo": albedo, "size": size, **shares(program, scene, mirrored)})
 
     white = lambda w: (1.0, 1.0, 1.0)  # noqa: E731
     for albedo in ALBEDOS:
@@ -106,23 +115,25 @@ def print_bodies(rows: list[dict]) -> None:
 def draw_bodies(rows: list[dict], out: Path) -> None:
     figure, axes = subplots(2, 3, figsize=(9, 5.4))
     panels = [
-        ("block", None, "albedo of a thick block"),
-        ("slab, reflected", 0.99, "thickness of a slab, albedo .99: reflected"),
-        ("slab, transmitted", 0.99, "thickness of a slab, albedo .99: transmitted"),
-        ("ball", 0.9, "radius of a ball, albedo .9"),
-        ("ball", 0.99, "radius of a ball, albedo .99"),
-        ("ball", 0.999, "radius of a ball, albedo .999"),
+        ("block", None, "thick block"),
+        ("slab, reflected", 0.99, "slab of albedo .99, reflected"),
+        ("slab, transmitted", 0.99, "slab of albedo .99, transmitted"),
+        ("ball", 0.9, "ball of albedo .9"),
+        ("ball", 0.99, "ball of albedo .99"),
+        ("ball", 0.999, "ball of albedo .999"),
     ]
     for panel, (study, albedo, label) in zip(axes.flat, panels):
         mine = [row for row in rows if row["study"] == study and albedo in (None, row["albedo"])]
         x = [1 - row["albedo"] if study == "block" else row["size"] for row in mine]
-        for method, color in list(METHODS.items())[1:]:
+        for method in list(METHODS)[1:]:
             y = [100 * (row[method] / row["random-walk"] - 1) for row in mine]
-            panel.plot(x, y, color=color, marker="o", markersize=2.5, linewidth=2 if method == "auto" else 1, label=method)
+            plot(panel, x, y, method)
         panel.axhline(0, color="#111111", linewidth=0.8)
         panel.set_xscale("log")
         panel.set_ylim(-80, 80)
-        panel.set_xlabel("1 - " + label if study == "block" else label + " [mean free paths]")
+        panel.set_title(label, fontsize=8)
+        quantity = {"b": "radius [mean free paths]", "s": "thickness [mean free paths]"}
+        panel.set_xlabel("1 - albedo" if study == "block" else quantity[study[0]])
         add_grid(panel)
     for panel in axes[:, 0]:
         panel.set_ylabel("light against the walk [%]")
@@ -140,8 +151,8 @@ def measure_scenes(program: Path) -> Path:
         for method in METHODS:
             for spp in counts:
                 picture, stats = render(program, scene, [*common, "--spp", str(spp), "--sss", method], CHARTS / "scene")
-                error = relative_rmse(picture, truth)
-                rows.append({"scene": name, "method": method, "spp": spp, "seconds": stats["render_cpu_seconds"], "error": error})
+                seconds, error = stats["render_cpu_seconds"], relative_rmse(picture, truth)
+                rows.append({"scene": name, "method": method, "spp": spp, "seconds": seconds, "error": error})
     return write(CHARTS / "subsurface-scenes.csv", rows)
 
 
@@ -154,10 +165,10 @@ def print_scenes(rows: list[dict]) -> None:
 def draw_scenes(rows: list[dict], out: Path) -> None:
     figure, axes = subplots(1, len(SCENES), figsize=(9, 3.6))
     for panel, name in zip(axes, SCENES):
-        for method, color in METHODS.items():
+        for method in METHODS:
             mine = [row for row in rows if row["scene"] == name and row["method"] == method]
             x, y = [row["seconds"] for row in mine], [100 * row["error"] for row in mine]
-            panel.plot(x, y, color=color, marker="o", markersize=2.5, linewidth=2 if method == "auto" else 1, label=method)
+            plot(panel, x, y, method)
         panel.set_xscale("log")
         panel.set_yscale("log")
         panel.set_xlabel(f"CPU seconds, {name}")
