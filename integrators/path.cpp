@@ -14,10 +14,6 @@ namespace {
 // 1e-6.
 constexpr float kShadowEnd = 1 - 1e-5f;
 
-// In units of DiffuseMedium::blur: how deep a body must be for diffusion to take the place of a walk. Balls
-// and slabs of any size then give back what a walk would within 5% (docs/subsurface.md).
-constexpr float kBroad = 10;
-
 /// One path as it grows: its last ray and what that met are those of `camera`. `pdf` is the density per solid
 /// angle of the ray's direction; infinite for the camera's, which no light sample competes with.
 struct Path {
@@ -47,9 +43,6 @@ struct Numbers {
 
 /// What media a world has.
 enum class Volumes : std::uint8_t { none, clear, scattering };
-
-/// What becomes of light that goes into a body.
-enum class Inside : std::uint8_t { travels, diffuses, returns };
 
 /// The steps of paths that grow side by side, in a world with media or without: one without has none of their
 /// code in its way.
@@ -189,7 +182,8 @@ class Tracer {
     if constexpr (kScattering) {
       if (hides(&boundary)) {
         const DiffuseMedium& medium = diffuse_media_[std::size_t(surface.part->medium)];
-        const Inside inside = choose_inside(path, surface, medium, boundary);
+        const Inside inside = choose_inside(context_, settings_.subsurface, medium, surface,
+                                            boundary.before == nullptr, path.sampler(), counts_);
         if (depth == 0)
           (inside == Inside::travels ? path.camera->features.walked : path.camera->features.diffused) = 1;
         if (inside != Inside::travels) return emerge(path, surface, medium, inside);
@@ -204,31 +198,6 @@ class Tracer {
   /// Whether light is not sampled through a boundary, since what is behind is dense.
   static bool hides(const Boundary* boundary) {
     return boundary && boundary->after && boundary->after->dense && boundary->after->scatters();
-  }
-
-  /// What light does in a dense body that it enters at `surface`. Diffusion knows no other bodies, so it is
-  /// for those in vacuum.
-  Inside choose_inside(Path& path, const Surface& surface, const DiffuseMedium& medium,
-                       const Boundary& boundary) const {
-    // What stays below the rounding of the place comes back from there.
-    constexpr float kResolved = 16;
-    if (settings_.subsurface == Subsurface::off || medium.free_path < kResolved * surface.offset)
-      return Inside::returns;
-    if (settings_.subsurface == Subsurface::random_walk || boundary.before) return Inside::travels;
-    if (settings_.subsurface != Subsurface::automatic) return Inside::diffuses;
-    return is_broad(path, surface, medium) ? Inside::diffuses : Inside::travels;
-  }
-
-  /// Whether nothing is as near below the surface, in a direction by chance, as would make diffusion wrong.
-  /// The share of the directions in which something is grows smoothly from broad to thin parts, and so does
-  /// the share of walks.
-  bool is_broad(Path& path, const Surface& surface, const DiffuseMedium& medium) const {
-    const float depth = kBroad * medium.blur;
-    if (!(depth < kInfinity)) return false;
-    const Frame frame = make_frame(surface.front ? -surface.ng : surface.ng);
-    const Vec3f d = frame.to_world(sample_cosine_hemisphere(path.sampler().next2()));
-    ++counts_.shadow;
-    return !context_.accel.occluded({ray_origin(surface, d), d, depth}, path.sampler().key());
   }
 
   /// Whether a path that has come through a dense body from inside may leave it in any direction, as diffused

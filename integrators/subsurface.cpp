@@ -9,6 +9,10 @@
 namespace parian {
 namespace {
 
+// In units of DiffuseMedium::blur: how deep a body must be for diffusion to take the place of a walk. Balls
+// and slabs of any size then give back what a walk would within 6% (docs/subsurface.md).
+constexpr float kBroad = 10;
+
 Diffusion model_of(Subsurface method) {
   switch (method) {
     case Subsurface::dipole:
@@ -119,6 +123,21 @@ std::vector<DiffuseMedium> make_diffuse_media(const World& world, Subsurface met
   std::vector<DiffuseMedium> media;
   for (const Medium& medium : world.media) media.push_back(make_diffuse_medium(medium, method));
   return media;
+}
+
+Inside choose_inside(const TraceContext& context, Subsurface method, const DiffuseMedium& medium,
+                     const Surface& surface, bool from_vacuum, Sampler& sampler, RayCounts& counts) {
+  constexpr float kResolved = 16;  // roundings
+  if (method == Subsurface::off || medium.free_path < kResolved * surface.offset) return Inside::returns;
+  if (method == Subsurface::random_walk || !from_vacuum) return Inside::travels;
+  if (method != Subsurface::automatic) return Inside::diffuses;
+  const float depth = kBroad * medium.blur;
+  if (!(depth < kInfinity)) return Inside::travels;
+  const Frame frame = make_frame(surface.front ? -surface.ng : surface.ng);
+  const Vec3f d = frame.to_world(sample_cosine_hemisphere(sampler.next2()));
+  ++counts.shadow;
+  const bool near = context.accel.occluded({ray_origin(surface, d), d, depth}, sampler.key());
+  return near ? Inside::travels : Inside::diffuses;
 }
 
 std::optional<Emergence> sample_emergence(const TraceContext& context, const DiffuseMedium& medium,
