@@ -28,6 +28,7 @@ struct Path {
   float wavelength;  // nanometres; 0: of all
   int passed;        // surfaces that were none, since what is before and behind them is the same
   bool scattered;    // on its last ray, by a medium
+  float lead;        // how far before its last ray's origin that would have left the surface
 
   const Ray& ray() const { return camera->ray; }
   const Hit& hit() const { return camera->hit; }
@@ -65,6 +66,7 @@ class Tracer {
     path.wavelength = 0;
     path.passed = 0;
     path.scattered = false;
+    path.lead = 0;
   }
 
   /// What happens where the path has arrived after `depth` scattering events: light that it finds there,
@@ -139,8 +141,8 @@ class Tracer {
   /// Follows a path through a medium that scatters it, to what it meets next; one that is absorbed meets
   /// nothing and carries nothing. Light is not sampled on the way: in most bodies their own surface hides it.
   void wander(Path& path, const Medium& medium) {
-    const Walk result =
-        walk(context_, medium, path.camera->ray, path.camera->hit, path.weight, path.sampler(), counts_);
+    const Walk result = walk(context_, medium, path.lead, path.camera->ray, path.camera->hit, path.weight,
+                             path.sampler(), counts_);
     path.scattered = result != Walk::straight;
     if (!path.scattered) return;
     path.pdf = kInfinity;
@@ -153,7 +155,7 @@ class Tracer {
   bool pass(Path& path, const Surface& surface, const Boundary& boundary) const {
     constexpr int kMost = 1000;
     path.media = boundary.beyond;
-    path.camera->ray = {ray_origin(surface, path.ray().d), path.ray().d};
+    set_ray(path, surface, path.ray().d);
     path.pdf = kInfinity;
     return ++path.passed < kMost;
   }
@@ -315,6 +317,12 @@ class Tracer {
         path.sampler().key());
   }
 
+  /// Sends the path from a surface along w.
+  static void set_ray(Path& path, const Surface& surface, const Vec3f& w) {
+    path.camera->ray = {ray_origin(surface, w), w};
+    if constexpr (kScattering) path.lead = surface.offset / std::max(std::abs(w.dot(surface.ng)), 1e-3f);
+  }
+
   /// Light sampled directly, and then a direction to go on, of the BSDF; false where the path ends.
   bool scatter(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary* boundary,
                const Numbers& numbers) {
@@ -331,7 +339,7 @@ class Tracer {
     if (!sample) return false;
     path.weight *= sample->weight;
     path.pdf = sample->pdf;
-    path.camera->ray = {ray_origin(surface, sample->wi), sample->wi};
+    set_ray(path, surface, sample->wi);
     return true;
   }
 

@@ -31,20 +31,24 @@ Vec3f sample_henyey_greenstein(const Vec3f& d, float g, const Vec2f& u) {
   return make_frame(d).to_world({p.x, p.y, 1 - versine});
 }
 
-Walk walk(const TraceContext& context, const Medium& medium, Ray& ray, Hit& hit, Rgb& weight,
+Walk walk(const TraceContext& context, const Medium& medium, float lead, Ray& ray, Hit& hit, Rgb& weight,
           Sampler& sampler, RayCounts& counts) {
   const Rgb extinction = medium.extinction, nothing(1, 1, 1);
   int patience = kLongWalk;
   for (int steps = 0; steps < kLongestWalk; ++steps) {
     const int k = choose_channel(weight, sampler.next_independent());
-    ray.tmax = extinction[k] > 0 ? -std::log(1 - sampler.next_independent()) / extinction[k] : kInfinity;
+    const float distance =
+        extinction[k] > 0 ? -std::log(1 - sampler.next_independent()) / extinction[k] : kInfinity;
+    // What would be scattered before the origin is scattered there.
+    ray.tmax = std::max(distance - lead, 0.0f);
     ++counts.scattered;
     const bool met = context.accel.intersect(ray, sampler.key(), hit);
-    if (met || ray.tmax == kInfinity) {
-      weigh(weight, transmittance(&medium, met ? hit.t : kInfinity), nothing, nothing);
+    if (met || distance == kInfinity) {
+      weigh(weight, transmittance(&medium, met ? lead + hit.t : kInfinity), nothing, nothing);
       return steps == 0 ? Walk::straight : Walk::scattered;
     }
-    weigh(weight, transmittance(&medium, ray.tmax), medium.scattering, extinction);
+    weigh(weight, transmittance(&medium, distance), medium.scattering, extinction);
+    lead = 0;
     // Without what is left to carry, absorption ends the path; else it would go on for ever, ever darker.
     const float survival = std::min(1.0f, max_component(weight));
     if (!(sampler.next_independent() < survival)) return Walk::ended;

@@ -12,17 +12,18 @@ enum class Walk : std::uint8_t {
   ended       // it was absorbed
 };
 
-/// Follows `ray`, which is in the medium, from one scattering to the next until it meets a surface or leaves
-/// the scene: then `ray` is its last piece and `hit` what that met. `weight` is multiplied by f / pdf of all
-/// that happened, the roulette of absorption included; it is the same in all channels that the medium treats
-/// alike. Distances are sampled for one colour channel, chosen by what the path carries, and weighed by the
-/// density of all three, which bounds the weight; directions by Henyey and Greenstein's phase function.
+/// Follows `ray`, which is in the medium and began there a distance `lead` before its origin (as one does
+/// that left a surface), from one scattering to the next until it meets a surface or leaves the scene: then
+/// `ray` is its last piece and `hit` what that met. `weight` is multiplied by f / pdf of all that happened,
+/// the roulette of absorption included; it is the same in all channels that the medium treats alike.
+/// Distances are sampled for one colour channel, chosen by what the path carries, and weighed by the density
+/// of all three, which bounds the weight; directions by Henyey and Greenstein's phase function.
 ///
 /// Where nothing absorbs, a walk deep inside a large body takes as many steps as the square of its size in
 /// mean free paths. From kLongWalk steps on, each time that their number has doubled, one in sqrt(2) goes on:
 /// since the chance to be inside after n steps falls as n^-1/2, neither the time of long walks nor their
 /// variance grows but by the logarithm. After kLongestWalk steps it is given up.
-Walk walk(const TraceContext& context, const Medium& medium, Ray& ray, Hit& hit, Rgb& weight,
+Walk walk(const TraceContext& context, const Medium& medium, float lead, Ray& ray, Hit& hit, Rgb& weight,
           Sampler& sampler, RayCounts& counts);
 
 inline constexpr int kLongWalk = 1 << 12, kLongestWalk = 1 << 20;
