@@ -184,8 +184,9 @@ class Tracer {
     if constexpr (kScattering) {
       if (hides(&boundary)) {
         const DiffuseMedium& medium = diffuse_media_[std::size_t(surface.part->medium)];
-        const Inside inside = choose_inside(context_, settings_.subsurface, medium, surface,
-                                            boundary.before == nullptr, path.sampler(), counts_);
+        const bool alone = !boundary.before && boundary.after == context_.world.medium(*surface.part);
+        const Inside inside =
+            choose_inside(context_, settings_.subsurface, medium, surface, alone, path.sampler(), counts_);
         if (depth == 0)
           (inside == Inside::travels ? path.camera->features.walked : path.camera->features.diffused) = 1;
         if (inside != Inside::travels) return emerge(path, surface, medium, inside);

@@ -126,10 +126,10 @@ std::vector<DiffuseMedium> make_diffuse_media(const World& world, Subsurface met
 }
 
 Inside choose_inside(const TraceContext& context, Subsurface method, const DiffuseMedium& medium,
-                     const Surface& surface, bool from_vacuum, Sampler& sampler, RayCounts& counts) {
+                     const Surface& surface, bool alone, Sampler& sampler, RayCounts& counts) {
   constexpr float kResolved = 16;  // roundings
   if (method == Subsurface::off || medium.free_path < kResolved * surface.offset) return Inside::returns;
-  if (method == Subsurface::random_walk || !from_vacuum) return Inside::travels;
+  if (method == Subsurface::random_walk || !alone) return Inside::travels;
   if (method != Subsurface::automatic) return Inside::diffuses;
   const float depth = kBroad * medium.blur;
   if (!(depth < kInfinity)) return Inside::travels;

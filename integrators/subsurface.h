@@ -26,13 +26,13 @@ std::vector<DiffuseMedium> make_diffuse_media(const World& world, Subsurface met
 /// What becomes of light that goes into a dense body.
 enum class Inside : std::uint8_t { travels, diffuses, returns };
 
-/// Chooses for light that enters at `surface`, from vacuum or from another body. By the method where it says;
-/// diffusion knows no other bodies, so from them light travels; and what stays below the rounding of the
-/// place comes back from there. Subsurface::automatic diffuses where nothing is near below the surface, in a
-/// direction by chance: the share of the directions in which something is grows smoothly from broad to thin
-/// parts, and so does that of walks.
+/// Chooses for light that enters at `surface`; `alone`: from vacuum, into the body whose surface that is. By
+/// the method where it says; diffusion knows no other bodies, so there light travels; and what stays below
+/// the rounding of the place comes back from there. Subsurface::automatic diffuses where nothing is near
+/// below the surface, in a direction by chance: the share of the directions in which something is grows
+/// smoothly from broad to thin parts, and so does that of walks.
 Inside choose_inside(const TraceContext& context, Subsurface method, const DiffuseMedium& medium,
-                     const Surface& surface, bool from_vacuum, Sampler& sampler, RayCounts& counts);
+                     const Surface& surface, bool alone, Sampler& sampler, RayCounts& counts);
 
 /// Where light comes out: the surface there seen from outside along its normal, and the profile there over
 /// the density with which the place was sampled, per channel.
