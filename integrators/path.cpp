@@ -106,7 +106,8 @@ class Tracer {
     if constexpr (kScattering)
       if (boundary && leaves_anyhow(path, surface, *boundary))
         return leave_anyhow(path, surface, bsdf, *boundary, numbers.direction) && survive(path);
-    if (!scatter(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers)) return false;
+    sample_direct_light(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers.light);
+    if (!sample_direction(path, surface, bsdf, numbers.direction)) return false;
     if (boundary && bsdf.beyond(path.ray().d) && !enter(path, depth, surface, *boundary)) return false;
     return survive(path);
   }
@@ -244,8 +245,8 @@ class Tracer {
   /// Goes on from a surface that is seen from outside.
   bool leave(Path& path, const Surface& surface, const DiffuseMedium& medium, const Rgb& tint) {
     const Bsdf bsdf(surface, SubsurfaceExit{surface.part->material->ior, medium.inverse_c, tint});
-    const Vec2f light = path.sampler().next2();
-    return scatter(path, surface, bsdf, nullptr, {light, path.sampler().next2()});
+    sample_direct_light(path, surface, bsdf, nullptr, path.sampler().next2());
+    return sample_direction(path, surface, bsdf, path.sampler().next2());
   }
 
   /// The weight of light that the path ran into, where sampling lights would have found it with density
@@ -287,6 +288,10 @@ class Tracer {
   /// Samples a point of a light; whether it is seen is for later.
   void sample_direct_light(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary* boundary,
                            const Vec2f& u) {
+    const bool one_sided = !bsdf.transmits() || (kScattering && hides(boundary));
+    path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
+                 one_sided ? surface.frame.z : Vec3f(0)};
+    if (context_.lights.empty()) return;
     const std::optional<LightSample> light = context_.lights.sample(path.from, u, path.sampler());
     if (!light) return;
     if (!light->delta && settings_.strategy == Strategy::bsdf) return;
@@ -324,16 +329,7 @@ class Tracer {
     if constexpr (kScattering) path.lead = surface.offset / std::max(std::abs(w.dot(surface.ng)), 1e-3f);
   }
 
-  /// Light sampled directly, and then a direction to go on, of the BSDF; false where the path ends.
-  bool scatter(Path& path, const Surface& surface, const Bsdf& bsdf, const Boundary* boundary,
-               const Numbers& numbers) {
-    const bool one_sided = !bsdf.transmits() || (kScattering && hides(boundary));
-    path.from = {surface.lifted ? surface.p + surface.lift : surface.p,
-                 one_sided ? surface.frame.z : Vec3f(0)};
-    if (!context_.lights.empty()) sample_direct_light(path, surface, bsdf, boundary, numbers.light);
-    return sample_direction(path, surface, bsdf, numbers.direction);
-  }
-
+  /// Goes on in a direction sampled from the BSDF; false where the path ends.
   bool sample_direction(Path& path, const Surface& surface, const Bsdf& bsdf, const Vec2f& u) const {
     const float choice = bsdf.has_choice() ? path.sampler().next1() : 0;
     const std::optional<BsdfSample> sample = bsdf.sample(choice, u);
