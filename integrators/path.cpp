@@ -135,7 +135,7 @@ class Tracer {
   /// What the medium takes away on the last ray. (A walk has weighed that already.)
   void absorb(Path& path) const {
     const Medium* const medium = path.media.current();
-    if (kScattering && medium && medium->scatters()) return;
+    if (!medium || (kScattering && medium->scatters())) return;
     path.weight *= transmittance(medium, path.distance());
   }
 
@@ -310,8 +310,9 @@ class Tracer {
         medium = boundary->after;
         scale = scale_in(path, medium);
       }
-      direct *=
-          transmittance(medium, light->at_infinity ? kInfinity : (light->target - origin).length()) * scale;
+      direct *= scale;
+      if (medium)
+        direct *= transmittance(medium, light->at_infinity ? kInfinity : (light->target - origin).length());
       if (is_black(direct)) return;
     }
     // A path that enters a body and leaves it asks twice.
