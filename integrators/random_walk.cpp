@@ -6,9 +6,9 @@
 namespace parian {
 namespace {
 
-/// Multiplies the weight by f / pdf of having come as far as `distance`, where the medium's `event` (per
-/// metre; 1 for none) ends the piece, and the density that sampling has for channel k is rate[k] times its
-/// transmittance. The channel was chosen by what the weight was before.
+/// Multiplies the weight by f / pdf of a piece of which `transmitted` is what came to its end and `event`,
+/// per metre, what happened there (1: nothing); the density of sampling it for channel k is rate[k]
+/// transmitted[k], and the channel was chosen by what the weight was before.
 void weigh(Rgb& weight, const Rgb& transmitted, const Rgb& event, const Rgb& rate) {
   const float sum = weight.x + weight.y + weight.z;
   const float pdf = weight.dot(rate * transmitted);

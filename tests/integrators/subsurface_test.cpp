@@ -6,32 +6,21 @@
 #include "renderer/scene/half_space.h"
 #include "tests/integrators/support/bodies.h"
 #include "tests/integrators/support/render.h"
+#include "tests/support/classical_dipole.h"
 #include "tests/support/statistics.h"
 
 namespace parian {
 namespace {
 
-/// The classical dipole (Jensen et al. 2001) of index 1.3, integrated by hand; lengths in metres.
+/// The classical dipole of index 1.3 in metres, integrated by hand.
 struct Dipole {
   double absorption, scattering;
-  static constexpr double kA = 2.60008;  // from the exact internal reflectance .444457
 
   double extinction() const { return absorption + scattering; }
-  double falloff() const { return std::sqrt(3 * absorption * extinction()); }
-  double reflectance() const {
-    const double z = 1 / extinction(), s = falloff();
-    return 0.5 * scattering / extinction() * (std::exp(-s * z) + std::exp(-s * z * (1 + 4 * kA / 3)));
-  }
+  DipoleByHand in_free_paths() const { return {scattering / extinction()}; }
+  double reflectance() const { return in_free_paths().total(); }
   /// The share that comes out farther than r from where it went in, on a plane.
-  double beyond(double r) const {
-    double share = 0, all = 0;
-    for (const double z : {1 / extinction(), (1 + 4 * kA / 3) / extinction()}) {
-      const double d = std::hypot(r, z);
-      share += z * std::exp(-falloff() * d) / d;
-      all += std::exp(-falloff() * z);
-    }
-    return share / all;
-  }
+  double beyond(double r) const { return in_free_paths().beyond(r * extinction()); }
   double within(double r) const { return 1 - beyond(r); }
   /// The share that comes out beyond a straight line at distance h.
   double beyond_line(double h) const {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "materials/diffusion_models.h"
-#include "tests/materials/support/classical_dipole.h"
+#include "tests/support/classical_dipole.h"
 #include "tests/support/half_space_walk.h"
 
 namespace parian {

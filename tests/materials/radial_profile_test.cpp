@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "materials/diffusion.h"
-#include "tests/materials/support/classical_dipole.h"
 #include "tests/materials/support/lobes.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/classical_dipole.h"
 #include "tests/support/statistics.h"
 
 namespace parian {
