@@ -135,12 +135,13 @@ struct Reader {
   OIIO::Filesystem::IOMemReader memory;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
-  bool is_exr = false, is_webp = false;
+  bool is_exr = false, is_webp = false, is_scene_referred = false;
 
   Reader(Bytes bytes, std::string file)
       : name(std::move(file)), file_size(bytes.size()), memory(bytes.data(), bytes.size()) {
     const std::string format = format_of(bytes, name);
     is_exr = format == "openexr";
+    is_scene_referred = is_exr || format == "hdr";
     is_webp = format == "webp";
     if (format == "jpeg" && !jpeg_is_whole(bytes))
       throw InputError(name, "", "truncated: the JPEG has no end");
@@ -355,6 +356,25 @@ Picture read_picture(const std::string& path) try {
   throw InputError(path, "", "too large for the memory there is");
 }
 
+bool same_chromaticities(const ColorEncoding& a, const ColorEncoding& b) {
+  const auto near = [](float x, float y) { return std::abs(x - y) < 1e-4f; };
+  return std::ranges::equal(a.chromaticities, b.chromaticities, near);
+}
+
+ColorEncoding read_color_encoding(const std::string& path) {
+  const std::vector<char> bytes = read_file(path);
+  const Reader reader(std::as_bytes(std::span(bytes)), path);
+  ColorEncoding encoding;
+  // Names of linear spaces are "Linear", "scene_linear", "lin_rec709" and the like, by version.
+  const std::string space =
+      reader.spec.get_string_attribute("oiio:ColorSpace", reader.is_scene_referred ? "Linear" : "sRGB");
+  const bool linear = space.starts_with("lin") || space.starts_with("Lin") || space == "scene_linear";
+  if (!linear) encoding.transfer = space;
+  reader.spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                           encoding.chromaticities.data());
+  return encoding;
+}
+
 void write_exr(const Picture& picture, const std::string& path) {
   OIIO::ImageSpec spec(picture.width, picture.height, int(picture.channels.size()), OIIO::TypeDesc::FLOAT);
   spec.channelnames = picture.channels;
@@ -362,8 +382,7 @@ void write_exr(const Picture& picture, const std::string& path) {
   for (const auto& [key, value] : picture.metadata) spec.attribute(key, value);
   spec.attribute("compression", "zip");
   // Rec.709 primaries and white, which is what a file without this attribute means too.
-  const float rec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
-  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), ColorEncoding::kRec709.data());
   // The writer adds the time of day where this attribute is not there, and skips one of a wrong type: the
   // same picture has to give the same bytes.
   spec.attribute("DateTime", 0);

@@ -1,6 +1,7 @@
 /// Image files through OpenImageIO, the only code that knows it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -18,6 +19,22 @@ Image read_image(std::span<const std::byte> encoded, const std::string& name);
 
 /// Reads a picture (EXR or any other format) with all its channels and string metadata. Throws InputError.
 Picture read_picture(const std::string& path);
+
+/// How the colours of a file are written in numbers.
+struct ColorEncoding {
+  std::string transfer = "linear";  // or what they are encoded for: "sRGB", ...
+  // x and y of red, green, blue and white.
+  std::array<float, 8> chromaticities = kRec709;
+
+  static constexpr std::array<float, 8> kRec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+};
+
+/// But for rounding in decimals such as .3127.
+bool same_chromaticities(const ColorEncoding& a, const ColorEncoding& b);
+
+/// From the header alone: EXR and Radiance HDR are linear and the rest sRGB where they do not say otherwise,
+/// with the primaries and white of Rec.709. Throws InputError.
+ColorEncoding read_color_encoding(const std::string& path);
 
 /// Writes every channel as 32-bit float EXR (ZIP compression), metadata in the header, data in linear
 /// Rec.709. The file appears whole or not at all (temporary file beside it, then rename). Throws InputError

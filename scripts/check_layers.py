@@ -13,6 +13,7 @@ import sys
 # What each layer may include besides itself. docs/architecture.md says why.
 SEES = {
     "base": [],
+    "compare": ["base"],
     "shapes": ["base"],
     "scene": ["base", "shapes"],
     "light": ["base", "shapes", "scene"],
@@ -24,7 +25,7 @@ SEES = {
     "integrators": ["base", "scene", "shapes", "light", "film", "accel", "session", "materials"],
     "scene_io": ["base", "scene", "color"],
     "apps": ["base", "scene", "shapes", "light", "color", "film", "accel", "session", "materials",
-             "integrators", "scene_io"],
+             "integrators", "scene_io", "compare"],
 }  # fmt: skip
 
 # Headers of third-party libraries by pattern, and the paths they may be included from. "" is everywhere.
@@ -34,7 +35,7 @@ HOMES = [
     (r"embree[34]/", ["renderer/accel/", "bench/"]),
     (r"(tbb|oneapi)/", ["renderer/base/parallel"]),
     (r"OpenColorIO/", ["renderer/color/"]),
-    (r"OpenImageIO/", ["scene_io/image_io"]),
+    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_difference"]),
     (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf"]),
     (r"nlohmann/", ["scene_io/", "renderer/apps/"]),
     (r"CLI/", ["renderer/apps/"]),

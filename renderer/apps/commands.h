@@ -11,7 +11,7 @@
 namespace parian {
 
 // Exit codes.
-inline constexpr int kDone = 0, kBadUsage = 2, kBadInput = 3, kInterrupted = 4;
+inline constexpr int kDone = 0, kDiffers = 1, kBadUsage = 2, kBadInput = 3, kInterrupted = 4;
 
 /// What to run for a parsed subcommand.
 using Command = std::function<int()>;
@@ -29,5 +29,6 @@ inline CLI::Validator number_between(double low, double high) {
 Command add_render_command(CLI::App& app);
 Command add_display_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
+Command add_compare_command(CLI::App& app);
 
 }  // namespace parian

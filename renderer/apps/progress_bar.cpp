@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
+
 namespace parian {
 namespace {
 
@@ -10,11 +12,8 @@ constexpr double kBarInterval = 0.1, kLineInterval = 10;  // seconds
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool quiet, double seconds)
-    : quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO)),
-      seconds_(seconds),
-      next_(terminal_ ? 0 : kLineInterval) {}
+ProgressBar::ProgressBar(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO)), next_(terminal_ ? 0 : kLineInterval) {}
 
 void ProgressBar::show(const Session& session) {
   if (quiet_) return;
@@ -25,18 +24,17 @@ void ProgressBar::show(const Session& session) {
 }
 
 void ProgressBar::print(const Session& session, const Progress& progress) {
-  const double done = seconds_ > 0 ? progress.seconds / seconds_ : double(progress.samples) / progress.total;
-  const double remaining = seconds_ > 0 ? seconds_ - progress.seconds
-                           : done > 0   ? progress.seconds * (1 / done - 1)
-                                        : 0;
-  const std::string samples = seconds_ > 0 ? fmt::format("{} spp", progress.samples)
-                                           : fmt::format("{}/{} spp", progress.samples, progress.total);
-  const std::string state = fmt::format(
-      "{}  {} elapsed, {} left, noise {:.2f}%", samples, format_duration(progress.seconds),
-      done > 0 ? format_duration(std::max(0.0, remaining)) : "?", 100 * session.film().relative_noise());
+  const std::string samples = progress.total == kNoLimit
+                                  ? fmt::format("{} spp", progress.samples)
+                                  : fmt::format("{}/{} spp", progress.samples, progress.total);
+  const std::string remaining =
+      progress.done > 0 ? format_duration(progress.seconds * (1 / progress.done - 1)) : "?";
+  const std::string state =
+      fmt::format("{}  {} elapsed, {} left, noise {}", samples, format_duration(progress.seconds), remaining,
+                  format_noise(session.film().noise()));
   if (terminal_) {
     constexpr int kWidth = 30;
-    const int filled = std::clamp(int(done * kWidth), 0, kWidth);
+    const int filled = std::clamp(int(progress.done * kWidth), 0, kWidth);
     fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(filled, '#'), std::string(kWidth - filled, '.'),
                state);
     shown_ = true;
@@ -48,6 +46,12 @@ void ProgressBar::print(const Session& session, const Progress& progress) {
 void ProgressBar::finish() {
   if (shown_) fmt::print(stderr, "\n");
   shown_ = false;
+}
+
+std::string format_noise(const Noise& noise) {
+  return std::isfinite(noise.bound)
+             ? fmt::format("{:.2f}% (at most {:.2f}%)", 100 * noise.estimate, 100 * noise.bound)
+             : "unknown";
 }
 
 std::string format_duration(double seconds) {

@@ -7,8 +7,7 @@ namespace parian {
 
 class ProgressBar {
  public:
-  /// `seconds`: the time limit of the render, 0 if it is the samples that end it.
-  ProgressBar(bool quiet, double seconds);
+  explicit ProgressBar(bool quiet);
   /// Shows the state; cheap enough to be called ten times a second.
   void show(const Session& session);
   /// Ends the bar's line.
@@ -18,8 +17,11 @@ class ProgressBar {
   void print(const Session& session, const Progress& progress);
 
   bool quiet_, terminal_, shown_ = false;
-  double seconds_, next_ = 0;
+  double next_;
 };
+
+/// In percent, the estimate and the bound; unknown where a pixel has one sample alone.
+std::string format_noise(const Noise& noise);
 
 /// h:mm:ss, or m:ss below an hour.
 std::string format_duration(double seconds);

@@ -28,10 +28,12 @@ struct RenderOptions {
   std::vector<std::string> scenes;
   std::string output, display, view, size, camera, environment, stats, checkpoint, resume;
   std::string integrator = "path";
+  std::optional<std::string> tiles;
   std::vector<std::string> layers;
   RenderSettings settings;
   IntegratorSettings integrator_settings;
   float exposure = 0;
+  std::uint32_t spp = 0;  // 0: not given
   int threads = 0;
   bool quiet = false;
 };
@@ -60,6 +62,10 @@ const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol}
                                                    {"independent", SamplerKind::independent}};
 const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris},
                                                  {"box", FilterKind::box}};
+const std::map<std::string, Partitioner> kPartitioners{{"auto", Partitioner::automatic},
+                                                       {"static", Partitioner::fixed},
+                                                       {"simple", Partitioner::simple},
+                                                       {"affinity", Partitioner::affinity}};
 
 /// Adds an option whose value is one of the names of `choices`.
 template <class T>
@@ -82,6 +88,17 @@ Vec2i parse_size(const std::string& text) {
       size.x > 65536 || size.y > 65536)
     throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 65536", text));
   return size;
+}
+
+/// rows, columns, or the side of square tiles from 1 to 65536 pixels.
+Tiling parse_tiles(const std::string& text) {
+  if (text == "rows") return {TileShape::rows};
+  if (text == "columns") return {TileShape::columns};
+  Tiling tiling;
+  char rest;
+  if (std::sscanf(text.c_str(), "%d%c", &tiling.size, &rest) != 1 || tiling.size < 1 || tiling.size > 65536)
+    throw UsageError(fmt::format("--tiles {}: expected rows, columns, or a size from 1 to 65536", text));
+  return tiling;
 }
 
 /// The camera by name or by number, as an index into the placed cameras.
@@ -189,7 +206,7 @@ std::string checkpoint_key(const RenderOptions& o) {
 /// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
 bool run(Session& session, const RenderOptions& o, const std::string& key) {
   constexpr double kCheckpointInterval = 60;  // seconds
-  ProgressBar bar(o.quiet, o.settings.seconds);
+  ProgressBar bar(o.quiet);
   double next_checkpoint = kCheckpointInterval;
   session.start();
   while (session.progress().running && !interrupted) {
@@ -212,7 +229,8 @@ void write_pictures(const Session& session, const RenderOptions& o, double rende
   picture.metadata = {{"parian:version", PARIAN_VERSION},
                       {"parian:scene", fmt::format("{}", fmt::join(o.scenes, " "))},
                       {"parian:integrator", o.integrator},
-                      {"parian:spp", std::to_string(session.film().min_samples())},
+                      {"parian:spp", fmt::format("{:.6g}", session.film().mean_samples())},
+                      {"parian:noise", fmt::format("{:.4g}", session.film().noise().bound)},
                       {"parian:seed", std::to_string(o.settings.seed)},
                       {"parian:maxDepth", std::to_string(o.integrator_settings.max_depth)},
                       {"parian:renderSeconds", fmt::format("{:.2f}", render_seconds)}};
@@ -223,6 +241,9 @@ void write_pictures(const Session& session, const RenderOptions& o, double rende
 int render(RenderOptions o) {
   check_outputs(o);
   Vec2i size = o.size.empty() ? Vec2i(0) : parse_size(o.size);
+  const bool other_end = o.settings.seconds > 0 || o.settings.noise > 0;
+  o.settings.spp = o.spp > 0 ? o.spp : other_end ? kNoLimit : 64;
+  if (o.tiles) o.settings.tiling = parse_tiles(*o.tiles);
   if (o.threads > 0) set_thread_count(o.threads);
   o.settings.layers = film_layers(o.layers);
   std::unique_ptr<Integrator> integrator = make_integrator(o.integrator, o.integrator_settings);
@@ -254,13 +275,13 @@ int render(RenderOptions o) {
   write_pictures(session, o, seconds.render);
   seconds.write = lap(clock);
   const SessionStats stats = session.stats();
-  if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, session.progress()));
+  if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, session.film()));
   if (stats.rays.dropped > 0)
     fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n",
                stats.rays.dropped, stats.rays.camera);
   if (!o.quiet)
-    fmt::print(stderr, "{}x{}, {} spp, noise {:.2f}%, {} ({:.0f} camera paths per CPU second)\n", size.x,
-               size.y, session.film().min_samples(), 100 * session.film().relative_noise(),
+    fmt::print(stderr, "{}x{}, {:.4g} spp, noise {}, {} ({:.0f} camera paths per CPU second)\n", size.x,
+               size.y, session.film().mean_samples(), format_noise(session.film().noise()),
                format_duration(seconds.render),
                stats.render_cpu_seconds > 0 ? double(stats.rays.camera) / stats.render_cpu_seconds : 0);
   return stopped ? kInterrupted : kDone;
@@ -285,11 +306,14 @@ Command add_render_command(CLI::App& app) {
       ->type_name("NAME|INDEX");
   c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")
       ->type_name("FILE");
-  auto* spp = c.add_option("--spp", o.settings.spp, "Samples for each pixel [64]")
-                  ->check(CLI::Range(1u, 1u << 30).description(""));
-  c.add_option("--time", o.settings.seconds, "Seconds to render instead of a number of samples")
-      ->check(number_between(1e-3, 1e9))
-      ->excludes(spp);
+  c.add_option("--spp", o.spp, "Samples for each pixel, or for the mean pixel with --noise [64]")
+      ->check(CLI::Range(1u, 1u << 30).description(""));
+  c.add_option("--time", o.settings.seconds, "Seconds to render")->check(number_between(1e-3, 1e9));
+  c.add_option(
+       "--noise", o.settings.noise,
+       "Relative error to reach, .05 for 5%, with samples where they are needed. Of --spp, --time and "
+       "--noise that are given, the first reached ends the render")
+      ->check(number_between(1e-6, 1e3));
   c.add_option("--integrator", o.integrator,
                fmt::format("What to compute [path]: {}", fmt::join(integrator_names(), ", ")))
       ->type_name("NAME");
@@ -321,6 +345,11 @@ Command add_render_command(CLI::App& app) {
       ->type_name("LIST");
   c.add_option("--threads", o.threads, "Threads; all cores by default")
       ->check(CLI::Range(1, 4096).description(""));
+  c.add_option("--tiles", o.tiles,
+               "How the picture is cut for the threads: rows, columns, or the side of squares in pixels")
+      ->type_name("rows|columns|SIZE");
+  add_choice(c, "--partitioner", o.settings.partitioner, kPartitioners,
+             "How tiles are dealt to threads [simple]");
   c.add_option("--seed", o.settings.seed, "Seed of the random sequence [0]");
   c.add_option("--stats", o.stats, "JSON to write what the render cost to")->type_name("FILE.json");
   c.add_option("--checkpoint", o.checkpoint,

@@ -11,8 +11,9 @@ struct PhaseSeconds {
   double load = 0, build = 0, render = 0, write = 0;
 };
 
-/// As JSON: seconds per phase, CPU seconds of the render, rays by kind, camera paths per CPU second, bytes.
-std::string stats_json(const SessionStats& stats, const PhaseSeconds& seconds, const Progress& progress);
+/// As JSON: seconds per phase, CPU seconds of the render, samples and noise, rays by kind, camera paths per
+/// CPU second, bytes.
+std::string stats_json(const SessionStats& stats, const PhaseSeconds& seconds, const Film& film);
 
 /// Largest resident memory of this process so far.
 std::size_t peak_memory_bytes();

@@ -5,8 +5,6 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
-#include <memory>
-
 namespace parian {
 namespace {
 
@@ -19,6 +17,17 @@ struct ThreadLimit {
 ThreadLimit& limit() {
   static ThreadLimit instance;
   return instance;
+}
+
+template <class P>
+void run_loop(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body,
+              P&& partitioner) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, grain),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+      },
+      partitioner);
 }
 
 }  // namespace
@@ -35,12 +44,29 @@ void set_thread_count(int threads) {
 int thread_count() { return limit().threads; }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, grain),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-      },
-      tbb::simple_partitioner());
+  run_loop(count, grain, body, tbb::simple_partitioner());
+}
+
+struct ParallelLoop::Memory {
+  tbb::affinity_partitioner partitioner;
+};
+
+ParallelLoop::ParallelLoop(Partitioner partitioner)
+    : partitioner_(partitioner), memory_(std::make_unique<Memory>()) {}
+
+ParallelLoop::~ParallelLoop() = default;
+
+void ParallelLoop::run(std::size_t count, const std::function<void(std::size_t)>& body) {
+  switch (partitioner_) {
+    case Partitioner::automatic:
+      return run_loop(count, 1, body, tbb::auto_partitioner());
+    case Partitioner::fixed:
+      return run_loop(count, 1, body, tbb::static_partitioner());
+    case Partitioner::simple:
+      return run_loop(count, 1, body, tbb::simple_partitioner());
+    case Partitioner::affinity:
+      return run_loop(count, 1, body, memory_->partitioner);
+  }
 }
 
 }  // namespace parian

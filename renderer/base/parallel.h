@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace parian {
 
@@ -17,5 +19,24 @@ int thread_count();
 /// Calls body(i) once for each i in [0, count), in any order, on thread_count() threads. Items are handed out
 /// `grain` at a time. An exception in a body ends the loop and is rethrown here.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
+
+/// How the items of a loop are dealt to threads, as oneTBB's partitioners do it: in halves that are split
+/// again where a thread is idle; in equal shares once and for all; one by one; like the first, but each to
+/// the thread that had it the last time.
+enum class Partitioner : std::uint8_t { automatic, fixed, simple, affinity };
+
+/// A loop that runs again and again over the same items, dealt by a partitioner. One run at a time.
+class ParallelLoop {
+ public:
+  explicit ParallelLoop(Partitioner partitioner);
+  ~ParallelLoop();
+  /// As parallel_for() with a grain of 1.
+  void run(std::size_t count, const std::function<void(std::size_t)>& body);
+
+ private:
+  struct Memory;  // of who had what
+  Partitioner partitioner_;
+  std::unique_ptr<Memory> memory_;
+};
 
 }  // namespace parian

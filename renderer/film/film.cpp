@@ -12,6 +12,12 @@ double variance_of_mean(double sum, double squares, std::uint32_t n) {
   return std::max(0.0, (squares - sum * sum / n) / (double(n) - 1)) / n;
 }
 
+/// The blocks that an area covers.
+Tile blocks_of(const Tile& area) {
+  return {area.x0 / kBlock, area.y0 / kBlock, (area.x1 + kBlock - 1) / kBlock,
+          (area.y1 + kBlock - 1) / kBlock};
+}
+
 }  // namespace
 
 Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(height), layers_(layers) {
@@ -22,30 +28,40 @@ void Film::clear() {
   const std::lock_guard lock(mutex_);
   pixels_.assign(std::size_t(width_) * height_, {});
   features_.assign(layers_.features ? pixels_.size() : 0, {});
+  plan_.assign(std::size_t(block_columns()) * block_rows(), 0);
+  rays_.assign(plan_.size(), 0);
 }
 
 FilmTile Film::checkout(const Tile& area) const {
-  FilmTile tile{area, {}, {}};
+  FilmTile tile{area, {}, {}, {}};
   const std::lock_guard lock(mutex_);
+  const auto take = [](auto& to, const auto& from, std::size_t first, std::size_t last) {
+    to.insert(to.end(), from.begin() + first, from.begin() + last);
+  };
   for (int y = area.y0; y < area.y1; ++y) {
     const std::size_t row = std::size_t(y) * width_;
-    tile.pixels.insert(tile.pixels.end(), pixels_.begin() + row + area.x0, pixels_.begin() + row + area.x1);
-    if (layers_.features)
-      tile.features.insert(tile.features.end(), features_.begin() + row + area.x0,
-                           features_.begin() + row + area.x1);
+    take(tile.pixels, pixels_, row + area.x0, row + area.x1);
+    if (layers_.features) take(tile.features, features_, row + area.x0, row + area.x1);
+  }
+  const Tile blocks = blocks_of(area);
+  for (int y = blocks.y0; y < blocks.y1; ++y) {
+    const std::size_t row = std::size_t(y) * block_columns();
+    take(tile.rays, rays_, row + blocks.x0, row + blocks.x1);
   }
   return tile;
 }
 
 void Film::merge(const FilmTile& tile) {
   const std::lock_guard lock(mutex_);
-  const int width = tile.area.x1 - tile.area.x0;
-  for (int y = tile.area.y0; y < tile.area.y1; ++y) {
-    const std::size_t from = std::size_t(y - tile.area.y0) * width,
-                      to = std::size_t(y) * width_ + tile.area.x0;
-    std::copy_n(tile.pixels.begin() + from, width, pixels_.begin() + to);
-    if (layers_.features) std::copy_n(tile.features.begin() + from, width, features_.begin() + to);
-  }
+  const auto put = [](const auto& from, auto& to, const Tile& area, int columns) {
+    const std::size_t width = std::size_t(area.x1 - area.x0);
+    for (int y = area.y0; y < area.y1; ++y)
+      std::copy_n(from.begin() + (y - area.y0) * width, width,
+                  to.begin() + std::size_t(y) * columns + area.x0);
+  };
+  put(tile.pixels, pixels_, tile.area, width_);
+  if (layers_.features) put(tile.features, features_, tile.area, width_);
+  put(tile.rays, rays_, blocks_of(tile.area), block_columns());
 }
 
 Picture Film::resolve() const {
@@ -89,36 +105,94 @@ std::uint32_t Film::min_samples() const {
   return least;
 }
 
-double Film::relative_noise() const {
+double Film::mean_samples() const {
   const std::lock_guard lock(mutex_);
-  double variance = 0, sum = 0;
-  for (const PixelSums& p : pixels_)
-    for (int k = 0; k < 3 && p.samples; ++k) {
-      variance += variance_of_mean(p.color[k], p.squares[k], p.samples);
-      sum += p.color[k] / p.samples;
+  double sum = 0;
+  for (const PixelSums& p : pixels_) sum += p.samples;
+  return sum / double(pixels_.size());
+}
+
+BlockNoise Film::block_noise() const {
+  BlockNoise noise{block_columns(), block_rows(), {}, {}, {}, {}, {}};
+  std::vector<double> mean(plan_.size());
+  double picture_mean = 0;
+  const std::lock_guard lock(mutex_);
+  for (int y0 = 0; y0 < height_; y0 += kBlock)
+    for (int x0 = 0; x0 < width_; x0 += kBlock) {
+      const int x1 = std::min(x0 + kBlock, width_), y1 = std::min(y0 + kBlock, height_);
+      double sum = 0, variance = 0;
+      std::uint32_t least = 0xffffffffu;
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) {
+          const PixelSums& p = pixels_[std::size_t(y) * width_ + x];
+          least = std::min(least, p.samples);
+          for (int k = 0; k < 3 && p.samples; ++k) {
+            sum += p.color[k] / p.samples;
+            variance += variance_of_mean(p.color[k], p.squares[k], p.samples);
+          }
+        }
+      const double pixels = double(x1 - x0) * (y1 - y0);
+      noise.cost.push_back(least ? double(rays_[noise.cost.size()]) / (pixels * least) : 1);
+      mean[noise.error.size()] = sum / (3 * pixels);
+      noise.error.push_back(least < 2 ? INFINITY : variance / (3 * pixels));
+      noise.samples.push_back(least);
+      noise.weight.push_back(pixels / double(pixels_.size()));
+      picture_mean += noise.weight.back() * mean[noise.error.size() - 1];
     }
-  const double count = 3.0 * double(pixels_.size());
-  return sum > 0 ? std::sqrt(variance / count) / (sum / count) : 0;
+  const double floor = kNoiseFloor * picture_mean;
+  for (std::size_t b = 0; b < mean.size(); ++b) {
+    const double variance = noise.error[b], pixels = noise.weight[b] * double(pixels_.size());
+    const double least = std::max(0.0, mean[b] - kNoiseQuantile * std::sqrt(variance / pixels));
+    const auto relative = [&](double m) { return variance > 0 ? variance / (m * m + floor * floor) : 0; };
+    noise.error[b] = relative(mean[b]);
+    noise.most_error.push_back(relative(least));
+  }
+  return noise;
+}
+
+void Film::set_plan(std::vector<std::uint32_t> samples) {
+  const std::lock_guard lock(mutex_);
+  plan_ = std::move(samples);
+}
+
+bool Film::is_behind_plan() const {
+  const std::lock_guard lock(mutex_);
+  for (int y = 0; y < height_; y += kBlock)
+    for (int x = 0; x < width_; x += kBlock)
+      if (pixels_[std::size_t(y) * width_ + x].samples <
+          plan_[std::size_t(y / kBlock) * block_columns() + x / kBlock])
+        return true;
+  return false;
 }
 
 std::vector<char> Film::save() const {
   const std::lock_guard lock(mutex_);
-  const std::size_t pixel_bytes = pixels_.size() * sizeof(PixelSums);
-  std::vector<char> state(pixel_bytes + features_.size() * sizeof(FeatureSums));
-  std::memcpy(state.data(), pixels_.data(), pixel_bytes);
-  if (!features_.empty())
-    std::memcpy(state.data() + pixel_bytes, features_.data(), state.size() - pixel_bytes);
+  std::vector<char> state;
+  const auto put = [&](const auto& values) {
+    const auto* bytes = reinterpret_cast<const char*>(values.data());
+    state.insert(state.end(), bytes, bytes + values.size() * sizeof(values[0]));
+  };
+  put(pixels_);
+  put(features_);
+  put(rays_);
+  put(plan_);
   return state;
 }
 
 void Film::restore(const std::vector<char>& state) {
   const std::lock_guard lock(mutex_);
-  const std::size_t pixel_bytes = pixels_.size() * sizeof(PixelSums);
-  if (state.size() != pixel_bytes + features_.size() * sizeof(FeatureSums))
+  const char* from = state.data();
+  const auto size = [](const auto& values) { return values.size() * sizeof(values[0]); };
+  if (state.size() != size(pixels_) + size(features_) + size(rays_) + size(plan_))
     throw std::runtime_error("the saved film has another size or other layers");
-  std::memcpy(pixels_.data(), state.data(), pixel_bytes);
-  if (!features_.empty())
-    std::memcpy(features_.data(), state.data() + pixel_bytes, state.size() - pixel_bytes);
+  const auto take = [&](auto& values) {
+    if (!values.empty()) std::memcpy(values.data(), from, size(values));
+    from += size(values);
+  };
+  take(pixels_);
+  take(features_);
+  take(rays_);
+  take(plan_);
 }
 
 }  // namespace parian

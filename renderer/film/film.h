@@ -9,6 +9,7 @@
 
 #include "renderer/base/image.h"
 #include "renderer/base/math.h"
+#include "renderer/film/noise.h"
 
 namespace parian {
 
@@ -21,6 +22,10 @@ struct Features {
   // 1 where the path went into a dense body there and walked through it, or was diffused by it.
   float walked = 0, diffused = 0;
 };
+
+/// Pixels are rendered in blocks of kBlock x kBlock, which lie where they lie whatever the tiles; all pixels
+/// of a block have the same number of samples.
+inline constexpr int kBlock = 4;
 
 /// A rectangle of pixels.
 struct Tile {
@@ -59,6 +64,7 @@ struct FilmTile {
   Tile area;
   std::vector<PixelSums> pixels;      // row by row
   std::vector<FeatureSums> features;  // empty unless asked for
+  std::vector<std::uint64_t> rays;    // traced so far for each block, row by row
 };
 
 class Film {
@@ -70,7 +76,7 @@ class Film {
   const FilmLayers& layers() const { return layers_; }
 
   void clear();
-  /// The sums of an area, to be continued.
+  /// The sums of an area of whole blocks, to be continued.
   FilmTile checkout(const Tile& area) const;
   /// Puts an area back. Threads may merge tiles that do not overlap, and resolve, at the same time.
   void merge(const FilmTile& tile);
@@ -79,9 +85,19 @@ class Film {
   Picture resolve() const;
   /// Smallest number of samples of any pixel.
   std::uint32_t min_samples() const;
-  /// Root mean square over pixels and channels of the standard error, over the mean: the noise of the
-  /// picture.
-  double relative_noise() const;
+  /// Samples of the mean pixel.
+  double mean_samples() const;
+  BlockNoise block_noise() const;
+  Noise noise() const { return picture_noise(block_noise()); }
+
+  /// Samples that the pixels of each block, row by row, are to have: what the render works on. The film keeps
+  /// it, so that who goes on from a saved state ends the same pass first. None to begin with.
+  const std::vector<std::uint32_t>& plan() const { return plan_; }
+  void set_plan(std::vector<std::uint32_t> samples);
+  /// Whether a pixel has fewer samples than planned.
+  bool is_behind_plan() const;
+  int block_columns() const { return (width_ + kBlock - 1) / kBlock; }
+  int block_rows() const { return (height_ + kBlock - 1) / kBlock; }
 
   /// The state as bytes and back, for checkpoints. restore() throws std::runtime_error where they do not fit
   /// the film.
@@ -93,6 +109,8 @@ class Film {
   FilmLayers layers_;
   std::vector<PixelSums> pixels_;
   std::vector<FeatureSums> features_;
+  std::vector<std::uint64_t> rays_;  // by blocks
+  std::vector<std::uint32_t> plan_;
   mutable std::mutex mutex_;  // merging is rare and short next to rendering a tile
 };
 

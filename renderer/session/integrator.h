@@ -25,6 +25,7 @@ struct RayCounts {
   std::uint64_t camera = 0, scattered = 0, shadow = 0;
   std::uint64_t dropped = 0;  // samples that were not finite or negative, and counted as black
 
+  std::uint64_t total() const { return camera + scattered + shadow; }
   void operator+=(const RayCounts& other) {
     camera += other.camera;
     scattered += other.scattered;

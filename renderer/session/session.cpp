@@ -3,8 +3,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/base/parallel.h"
+#include "renderer/session/adaptive.h"
 #include "renderer/session/camera_rays.h"
 #include "renderer/session/media.h"
 
@@ -17,10 +19,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Camera rays are traced in packets of one sample of each pixel of a block. Blocks lie where they lie
-// whatever the tiles, and all their pixels have the same number of samples, so the packets are the same
+// Camera rays are traced in packets of one sample of each pixel of a block, so the packets are the same
 // however a render is cut.
-constexpr int kBlock = 4;
 static_assert(kBlock * kBlock == RayPacket::kSize);
 
 bool is_valid(const Rgb& c) { return is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
@@ -50,7 +50,9 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
       settings_(settings),
       integrator_(std::move(integrator)),
       filter_(settings.filter),
-      film_(settings.width, settings.height, settings.layers) {
+      film_(settings.width, settings.height, settings.layers),
+      tiles_(make_tiles(settings.width, settings.height, settings.tiling, thread_count())),
+      tile_loop_(settings.partitioner) {
   const Clock::time_point start = Clock::now();
   world_ = std::make_unique<World>(make_world(*scene_));
   integrator_->prepare(*world_);
@@ -77,6 +79,7 @@ void Session::start() {
   failure_ = nullptr;
   started_ = Clock::now();
   finished_samples_ = film_.min_samples();
+  done_ = 0;
   thread_ = std::thread([this] {
     const double cpu = process_cpu_seconds();
     try {
@@ -103,8 +106,11 @@ void Session::wait() {
 
 Progress Session::progress() const {
   const std::lock_guard lock(stats_mutex_);
-  return {finished_samples_, settings_.spp, running_ ? seconds_since(started_) : stats_.render_seconds,
-          running_};
+  Progress progress{finished_samples_, settings_.spp,
+                    running_ ? seconds_since(started_) : stats_.render_seconds, 0, running_};
+  progress.done = settings_.seconds > 0 ? std::clamp(progress.seconds / settings_.seconds, double(done_), 1.0)
+                                        : double(done_);
+  return progress;
 }
 
 SessionStats Session::stats() const {
@@ -119,35 +125,52 @@ bool Session::out_of_time() const {
   return settings_.seconds > 0 && seconds_since(started_) >= settings_.seconds;
 }
 
-/// Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long
-/// enough that their ends, where threads wait for each other, do not count.
 void Session::render() {
-  const std::uint32_t total = settings_.seconds > 0 ? 0xffffffffu : settings_.spp;
-  for (std::uint32_t done = finished_samples_; done < total && !cancel_ && !out_of_time();) {
-    const std::uint32_t step = std::clamp(done, 1u, 16u);
-    done = total - done > step ? done + step : total;
-    render_pass(done);
-    if (!cancel_ && !out_of_time()) finished_samples_ = done;
+  // A pass that was interrupted is ended first: the next depends on its result.
+  for (bool more = film_.is_behind_plan() || plan_pass(); more; more = plan_pass()) {
+    render_pass();
+    if (cancel_ || out_of_time()) return;
+    finished_samples_ = film_.min_samples();
   }
 }
 
-void Session::render_pass(std::uint32_t target) {
-  const int size = (settings_.tile_size + kBlock - 1) / kBlock * kBlock;
-  const int columns = (settings_.width + size - 1) / size, rows = (settings_.height + size - 1) / size;
-  parallel_for(std::size_t(columns) * rows, 1, [&](std::size_t i) {
-    const int x = int(i % columns) * size, y = int(i / columns) * size;
-    render_tile({x, y, std::min(x + size, settings_.width), std::min(y + size, settings_.height)}, target);
-  });
+/// Plans the next pass; false where the picture is finished.
+bool Session::plan_pass() {
+  const std::uint32_t done = finished_samples_;
+  done_ = std::min(1.0, film_.mean_samples() / settings_.spp);
+  if (settings_.noise > 0 && done >= kMinAdaptiveSamples) {
+    const BlockNoise noise = film_.block_noise();
+    // The error falls with the square root of the work.
+    done_ = std::clamp(std::pow(settings_.noise / picture_noise(noise).bound, 2), double(done_), 1.0);
+    std::vector<std::uint32_t> plan = plan_adaptive_pass(noise, settings_.noise, settings_.spp);
+    if (plan.empty()) return false;
+    film_.set_plan(std::move(plan));
+    return true;
+  }
+  if (done >= settings_.spp) return false;
+  // Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long
+  // enough that their ends, where threads wait for each other, do not count.
+  const std::uint32_t step = std::min(std::clamp(done, 1u, 16u), settings_.spp - done);
+  film_.set_plan(std::vector(film_.plan().size(), done + step));
+  return true;
 }
 
-void Session::render_tile(const Tile& area, std::uint32_t target) {
+void Session::render_pass() {
+  tile_loop_.run(tiles_.size(), [&](std::size_t i) { render_tile(tiles_[i]); });
+}
+
+void Session::render_tile(const Tile& area) {
   if (out_of_time()) return;
   FilmTile tile = film_.checkout(area);
   RayCounts counts;
+  auto rays = tile.rays.begin();
   for (int y = area.y0; y < area.y1; y += kBlock)
-    for (int x = area.x0; x < area.x1; x += kBlock) {
-      render_block(tile, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)}, target,
-                   counts);
+    for (int x = area.x0; x < area.x1; x += kBlock, ++rays) {
+      const std::size_t block = std::size_t(y / kBlock) * film_.block_columns() + x / kBlock;
+      const std::uint64_t before = counts.total();
+      render_block(tile, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)},
+                   film_.plan()[block], counts);
+      *rays += counts.total() - before;
       if (cancel_.load(std::memory_order_relaxed)) return;  // the tile is given up
     }
   film_.merge(tile);
@@ -166,7 +189,7 @@ void Session::render_block(FilmTile& tile, const Tile& block, std::uint32_t targ
   for (int y = block.y0; y < block.y1; ++y)
     for (int x = block.x0; x < block.x1; ++x) keys[count++] = Sampler::pixel_key(settings_.seed, x, y);
   for (std::uint32_t sample = tile.pixels[index(block.x0, block.y0)].samples; sample < target; ++sample) {
-    if (cancel_.load(std::memory_order_relaxed)) return;
+    if (cancel_.load(std::memory_order_relaxed) || out_of_time()) return;
     // The camera rays of one sample of each pixel, traced together.
     std::array<CameraPath, RayPacket::kSize> paths;
     for (std::size_t i = 0; i < count; ++i) {

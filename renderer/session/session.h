@@ -9,24 +9,32 @@
 #include <optional>
 #include <thread>
 
+#include "renderer/base/parallel.h"
 #include "renderer/film/filter.h"
 #include "renderer/scene/camera.h"
 #include "renderer/session/integrator.h"
+#include "renderer/session/tiles.h"
 
 namespace parian {
+
+inline constexpr std::uint32_t kNoLimit = 0xffffffffu;
 
 struct RenderSettings {
   int width = 960, height = 540;
   int camera = 0;          // index into World::cameras
-  std::uint32_t spp = 64;  // samples for each pixel
-  double seconds = 0;      // > 0: stop after this time, however many samples there are
+  std::uint32_t spp = 64;  // samples for each pixel; kNoLimit: as many as there is time for
+  // What ends a render, whichever comes first. With a target of noise the samples go where they are needed,
+  // and spp is their mean.
+  double seconds = 0;  // > 0: of rendering
+  double noise = 0;    // > 0: bound of the picture's relative error (Noise::bound)
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
   AccelSettings accel;
   LightChoice light_choice = LightChoice::tree;
-  int tile_size = 16;  // pixels; rounded up to whole blocks of 4
+  Tiling tiling;
+  Partitioner partitioner = Partitioner::simple;
 };
 
 /// What an edit touched, or-ed together.
@@ -39,8 +47,9 @@ enum Changed : unsigned {
 };
 
 struct Progress {
-  std::uint32_t samples = 0, total = 0;  // samples every pixel has, and will have
+  std::uint32_t samples = 0, total = 0;  // samples every pixel has at least, and will have at most
   double seconds = 0;                    // spent rendering
+  double done = 0;                       // share of the whole render, estimated, 0 to 1
   bool running = false;
 };
 
@@ -83,8 +92,9 @@ class Session {
   void build_lights();
   void retrace(std::shared_ptr<const Scene> scene, unsigned changed);
   void render();
-  void render_pass(std::uint32_t target);
-  void render_tile(const Tile& area, std::uint32_t target);
+  bool plan_pass();
+  void render_pass();
+  void render_tile(const Tile& area);
   void render_block(FilmTile& tile, const Tile& block, std::uint32_t target, RayCounts& counts) const;
   bool out_of_time() const;
 
@@ -98,11 +108,14 @@ class Session {
   CameraView view_;
   MediumStack camera_media_;
   Film film_;
+  std::vector<Tile> tiles_;
+  ParallelLoop tile_loop_;
 
   std::thread thread_;
   std::exception_ptr failure_;
   std::atomic<bool> cancel_{false}, running_{false};
   std::atomic<std::uint32_t> finished_samples_{0};
+  std::atomic<double> done_{0};  // share of the render, when the pass in progress was planned
   std::chrono::steady_clock::time_point started_;
   mutable std::mutex stats_mutex_;
   SessionStats stats_;

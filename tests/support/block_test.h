@@ -1,13 +1,11 @@
-/// Whether two pictures are estimates of the same one. Pixel by pixel a bias of 10% drowns in the noise;
-/// means of blocks see one of 1%.
+/// Whether two pictures are estimates of the same one, for tests of estimators.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
-#include "renderer/base/image.h"
+#include "renderer/compare/block_test.h"
 
 namespace parian {
 
@@ -16,50 +14,23 @@ namespace parian {
 /// for all tests together (Bonferroni). Values that are not finite, or differ by more than `largest` alone,
 /// fail too: no mean shows a black pixel in ten thousand.
 inline testing::AssertionResult blocks_agree(const Picture& a, const Picture& b, double largest = INFINITY) {
-  constexpr int kBlocks = 4, kTests = 3 * (kBlocks * kBlocks + 1);
-  // Two-sided normal quantile of 1e-4 / 51.
-  constexpr double kLimit = 4.7574;
-  static_assert(kTests == 51);
   if (a.width != b.width || a.height != b.height) return testing::AssertionFailure() << "other sizes";
-  const auto variance_channel = [](const Picture& p) {
-    for (std::size_t i = 0; i < p.channels.size(); ++i)
-      if (p.channels[i] == "variance.R") return i;
-    return p.channels.size();
-  };
-  const std::size_t va = variance_channel(a), vb = variance_channel(b);
-  if (va == a.channels.size() || vb == b.channels.size())
+  // Pictures of equal numbers of samples: what one missed, the other counts, whatever the size of the blocks.
+  const auto result = block_test(a, b, {1e-4, 1});
+  if (!result || result->variance != VarianceFrom::both)
     return testing::AssertionFailure() << "no variance layer";
-
-  const auto compare = [&](int k, int x0, int y0, int x1, int y1) -> double {
-    double difference = 0, variance = 0;
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) {
-        difference += double(a.at(x, y)[k]) - b.at(x, y)[k];
-        variance += double(a.at(x, y)[va + std::size_t(k)]) + b.at(x, y)[vb + std::size_t(k)];
-      }
-    // Pictures without noise must be equal but for rounding.
-    return difference / std::sqrt(variance + 1e-12 * (x1 - x0) * (y1 - y0));
-  };
-  for (int k = 0; k < 3; ++k) {
-    for (int y = 0; y < a.height; ++y)
-      for (int x = 0; x < a.width; ++x) {
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int k = 0; k < 3; ++k) {
         const double difference = double(a.at(x, y)[k]) - b.at(x, y)[k];
         if (!(std::abs(difference) <= largest))
           return testing::AssertionFailure() << "pixel " << x << ", " << y << " differs by " << difference;
       }
-    const double whole = compare(k, 0, 0, a.width, a.height);
-    if (!(std::abs(whole) < kLimit))
-      return testing::AssertionFailure() << "channel " << k << " is off by " << whole << " standard errors";
-    for (int i = 0; i < kBlocks * kBlocks; ++i) {
-      const int bx = i % kBlocks, by = i / kBlocks;
-      const double z = compare(k, a.width * bx / kBlocks, a.height * by / kBlocks,
-                               a.width * (bx + 1) / kBlocks, a.height * (by + 1) / kBlocks);
-      if (!(std::abs(z) < kLimit))
-        return testing::AssertionFailure() << "channel " << k << " of block " << bx << ", " << by
-                                           << " is off by " << z << " standard errors";
-    }
-  }
-  return testing::AssertionSuccess();
+  if (result->means_agree()) return testing::AssertionSuccess();
+  const BlockScore& worst = result->worst();
+  return testing::AssertionFailure() << worst.channel << " of (" << worst.x0 << ", " << worst.y0 << ") to ("
+                                     << worst.x1 << ", " << worst.y1 << ") is off by " << worst.z
+                                     << " standard errors";
 }
 
 }  // namespace parian

@@ -74,7 +74,11 @@ TEST_F(CommandLine, BadNumbersAreTwo) {
     expect_refused(2, render_arguments({"--threads", threads}), "--threads");
   for (const char* seconds : {"0", "-1", "nan", "inf"})
     expect_refused(2, render_arguments({"--time", seconds}), "--time");
-  expect_refused(2, render_arguments({"--time", "1", "--spp", "4"}), "--time");
+  for (const char* noise : {"0", "-1", "nan", "5%"})
+    expect_refused(2, render_arguments({"--noise", noise}), "--noise");
+  for (const char* tiles : {"0", "-4", "diagonal", "16x16", "70000", ""})
+    expect_refused(2, render_arguments({"--tiles", tiles}), "--tiles");
+  expect_refused(2, render_arguments({"--partitioner", "fair"}), "fair");
   expect_refused(2, render_arguments({"--max-depth", "-1"}), "--max-depth");
   for (const char* clamp : {"0", "-1", "nan"})
     expect_refused(2, render_arguments({"--clamp", clamp}), "--clamp");
@@ -229,8 +233,9 @@ TEST_F(CommandLine, InterruptionSavesWhatIsThere) {
     expected.insert({work("long.exr"), work("c")});
     EXPECT_EQ(files(), expected);
     // The checkpoint of an interruption can be gone on from.
-    const Outcome again = run({"render", triangle, "-o", work("long.exr"), "--size", "64x48", "--spp",
-                               p.metadata.at("parian:spp"), "--resume", work("c"), "--quiet"});
+    const Outcome again =
+        run({"render", triangle, "-o", work("long.exr"), "--size", "64x48", "--spp",
+             std::to_string(std::stoul(p.metadata.at("parian:spp")) + 1), "--resume", work("c"), "--quiet"});
     EXPECT_EQ(again.code, 0) << again.err;
     std::filesystem::remove(work("long.exr"));
     std::filesystem::remove(work("c"));
@@ -242,6 +247,48 @@ TEST_F(CommandLine, TimeLimitEndsTheRender) {
   const Picture p = rendered("timed.exr", {"--time", "0.5"});
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time).count(), 20);
   EXPECT_GT(std::stoul(p.metadata.at("parian:spp")), 0u);
+}
+
+// Of the ends that are given, the first that is reached counts; --noise alone has no other.
+TEST_F(CommandLine, NoiseEndsTheRender) {
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render",  PARIAN_SOURCE_DIR "/scenes/light-disk/light-disk.gltf",
+                                       "-o",      work("a.exr"),
+                                       "--size",  "64x64",
+                                       "--aov",   "samples",
+                                       "--stats", work("a.json"),
+                                       "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).code, 0);
+    return json::parse(read_bytes(work("a.json")));
+  };
+  json stats = render({"--noise", ".1"});
+  EXPECT_LE(stats["noise"]["bound"].get<double>(), .1);
+  EXPECT_GE(stats["noise"]["bound"].get<double>(), .06);
+  EXPECT_LE(stats["noise"]["estimate"], stats["noise"]["bound"]);
+  EXPECT_GE(stats["least_samples_per_pixel"], 16);
+  EXPECT_GT(stats["samples_per_pixel"], stats["least_samples_per_pixel"]);
+  const Picture p = read_picture(work("a.exr"));
+  EXPECT_EQ(p.channels.back(), "samples");
+  EXPECT_EQ(p.metadata.at("parian:noise"), fmt::format("{:.4g}", stats["noise"]["bound"].get<double>()));
+  stats = render({"--noise", "1e-5", "--spp", "32"});
+  EXPECT_NEAR(stats["samples_per_pixel"].get<double>(), 32, 5);
+  stats = render({"--noise", "1e-5", "--time", ".5"});
+  EXPECT_NEAR(stats["seconds"]["render"].get<double>(), .5, .2);
+  stats = render({"--time", "100", "--spp", "5"});
+  EXPECT_EQ(stats["samples_per_pixel"], 5);
+}
+
+TEST_F(CommandLine, TilesAndPartitionersChangeNoBit) {
+  const auto pixels = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--spp", "4"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return rendered("a.exr", arguments).pixels;
+  };
+  const auto expected = pixels({});
+  for (const char* tiles : {"rows", "columns", "8", "1000"}) EXPECT_EQ(pixels({"--tiles", tiles}), expected);
+  for (const char* partitioner : {"auto", "static", "simple", "affinity"})
+    EXPECT_EQ(pixels({"--partitioner", partitioner}), expected);
 }
 
 TEST_F(CommandLine, StatisticsAddUp) {

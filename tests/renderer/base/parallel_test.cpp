@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -37,6 +39,43 @@ TEST(ParallelFor, Nests) {
   std::atomic<int> visits = 0;
   parallel_for(20, 1, [&](std::size_t) { parallel_for(30, 4, [&](std::size_t) { ++visits; }); });
   EXPECT_EQ(visits, 600);
+}
+
+TEST(ParallelLoop, VisitsEachIndexOnceEachTime) {
+  for (const Partitioner partitioner :
+       {Partitioner::automatic, Partitioner::fixed, Partitioner::simple, Partitioner::affinity}) {
+    ParallelLoop loop(partitioner);
+    for (const std::size_t count : {1000, 7, 0, 1000}) {
+      std::vector<std::atomic<int>> visits(count);
+      loop.run(count, [&](std::size_t i) { ++visits.at(i); });
+      for (const auto& v : visits) ASSERT_EQ(v, 1) << int(partitioner) << ": " << count;
+    }
+    EXPECT_THROW(loop.run(10, [](std::size_t) { throw std::out_of_range("the body's own"); }),
+                 std::out_of_range);
+  }
+}
+
+// With simple partitioning a slow item keeps one thread only; with a static one it keeps the thread's whole
+// share.
+TEST(ParallelLoop, DealsAsThePartitionerSays) {
+  if (hardware_threads() < 2) GTEST_SKIP() << "one thread has nothing to deal";
+  set_thread_count(2);
+  const auto largest_share = [](Partitioner partitioner) {
+    constexpr int kItems = 64;
+    std::mutex mutex;
+    std::map<std::thread::id, int> items;
+    ParallelLoop(partitioner).run(kItems, [&](std::size_t i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 100 : 1));
+      const std::lock_guard lock(mutex);
+      ++items[std::this_thread::get_id()];
+    });
+    int most = 0;
+    for (const auto& entry : items) most = std::max(most, entry.second);
+    return most;
+  };
+  EXPECT_EQ(largest_share(Partitioner::fixed), 32);
+  EXPECT_GT(largest_share(Partitioner::simple), 50);
+  set_thread_count(hardware_threads());
 }
 
 TEST(ThreadCount, LimitsTheThreadsOfALoop) {

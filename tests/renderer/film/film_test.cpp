@@ -154,18 +154,6 @@ TEST(Film, ClearForgets) {
   EXPECT_EQ(film.min_samples(), 0u);
 }
 
-// Two pixels with standard errors of the mean s and 0 in all channels: noise s / sqrt(2) over the mean.
-TEST(Film, RelativeNoiseIsTheRootMeanSquareErrorOverTheMean) {
-  Film film(2, 1, {});
-  FilmTile tile = film.checkout({0, 0, 2, 1});
-  for (const float c : {1, 2, 3, 4}) add(tile, 0, 0, {c, c, c});
-  for (int i = 0; i < 4; ++i) add(tile, 1, 0, {5.5f, 5.5f, 5.5f});
-  film.merge(tile);
-  EXPECT_NEAR(film.relative_noise(), std::sqrt(5.0 / 12 / 2) / 4, 1e-12);
-  film.clear();
-  EXPECT_EQ(film.relative_noise(), 0) << "of a black film: no 0/0";
-}
-
 // The claim of the variance layer and of the noise: over many films the spread of the mean is what they say.
 TEST(Film, VariancePredictsTheSpreadOfMeans) {
   Statistics means, predicted;

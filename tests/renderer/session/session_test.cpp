@@ -28,7 +28,7 @@ TEST(Session, ThePictureDoesNotDependOnThreadsOrTiles) {
     EXPECT_TRUE(same_bits(render_everything(settings), reference)) << threads << " threads";
   }
   for (const int size : {5, 64}) {
-    settings.tile_size = size;
+    settings.tiling.size = size;
     EXPECT_TRUE(same_bits(render_everything(settings), reference)) << "tiles of " << size;
   }
   settings = small();
@@ -87,7 +87,7 @@ TEST(Session, SnapshotsWhileRenderingAreHarmless) {
   while (session.progress().running) {
     const Picture p = session.snapshot();
     for (const float c : p.pixels) ASSERT_TRUE(std::isfinite(c));
-    session.film().relative_noise();
+    session.film().noise();
     session.stats();
     ++looks;
   }
@@ -134,7 +134,7 @@ Scene slow_room() {
 TEST(Session, CancelIsQuick) {
   RenderSettings settings = small(100000);
   settings.width = settings.height = 512;
-  settings.tile_size = 64;
+  settings.tiling.size = 64;
   Session session = make_session(slow_room(), settings);
   std::vector<double> latencies;
   for (int i = 0; i < 7; ++i) {
@@ -164,32 +164,47 @@ TEST(Session, CancelWithoutStartAndTwiceIsHarmless) {
   EXPECT_TRUE(same_bits(session.snapshot(), render_everything(small())));
 }
 
-// Caught: a limit looked at only between passes, or not at all.
-TEST(Session, TimeLimitEndsTheRender) {
-  RenderSettings settings = small();
-  settings.seconds = 0.4;
-  Session session = make_session(everything(), settings);
+double seconds_to_render(Session& session) {
   const Clock::time_point start = Clock::now();
   session.start();
   session.wait();
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  EXPECT_GE(seconds, 0.4);
-  EXPECT_LT(seconds, 3);
-  EXPECT_GT(session.film().min_samples(), 0u);
-  EXPECT_FALSE(session.progress().running);
-  // And goes on for as long again.
-  const std::uint64_t rays = session.stats().rays.camera;
-  session.start();
-  session.wait();
-  EXPECT_GT(session.stats().rays.camera, rays);
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-  // In the middle of a pass that takes many seconds.
-  settings.width = settings.height = 1024;
-  Session slow = make_session(slow_room(), settings);
-  const Clock::time_point slow_start = Clock::now();
-  slow.start();
-  slow.wait();
-  EXPECT_LT(std::chrono::duration<double>(Clock::now() - slow_start).count(), 3);
+// Within 2%, though the 4 million pixels of one sample take some seconds. Caught: a limit looked at only
+// between passes, which end minutes later, or between tiles of 256, half a second.
+TEST(Session, TimeLimitEndsTheRender) {
+  RenderSettings settings = small(kNoLimit);
+  settings.seconds = 0.5;
+  settings.width = settings.height = 2048;
+  settings.tiling.size = 256;
+  Session session = make_session(slow_room(), settings);
+  double best = INFINITY;  // a busy machine delays threads, not all of them every time
+  for (int i = 0; i < 5 && best > 0.51; ++i) {
+    const double seconds = seconds_to_render(session);
+    EXPECT_GE(seconds, 0.5);
+    best = std::min(best, seconds);
+  }
+  EXPECT_LT(best, 0.51);
+  EXPECT_FALSE(session.progress().running);
+  EXPECT_EQ(session.progress().done, 1);
+}
+
+TEST(Session, TimeLimitKeepsWhatIsThereAndGoesOn) {
+  RenderSettings settings = small(kNoLimit);
+  settings.seconds = 0.2;
+  Session session = make_session(everything(), settings);
+  finish(session);
+  const double before = session.film().mean_samples();
+  EXPECT_GT(session.film().min_samples(), 0u);
+  finish(session);
+  EXPECT_GT(session.film().mean_samples(), before);
+  // What was cut off in the middle of a pass is a beginning like any other.
+  settings.seconds = 0;
+  settings.spp = std::uint32_t(session.film().mean_samples()) + 50;
+  Session rest = make_session(everything(), settings);
+  rest.film().restore(session.film().save());
+  EXPECT_TRUE(same_bits(finish(rest), render_everything(settings)));
 }
 
 /// Gives each sample of a pixel another kind of number.
