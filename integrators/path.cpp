@@ -107,6 +107,8 @@ class Tracer {
       if (boundary && leaves_anyhow(path, surface, *boundary))
         return leave_anyhow(path, surface, bsdf, *boundary, numbers.direction) && survive(path);
     sample_direct_light(path, surface, bsdf, boundary ? &*boundary : nullptr, numbers.light);
+    if (const Rgb* weight = bsdf.constant_weight())
+      return bounce(path, surface, bsdf, *weight, numbers.direction);
     if (!sample_direction(path, surface, bsdf, numbers.direction)) return false;
     if (boundary && bsdf.beyond(path.ray().d) && !enter(path, depth, surface, *boundary)) return false;
     return survive(path);
@@ -299,8 +301,11 @@ class Tracer {
     const BsdfValue value = bsdf.eval(light->wi);
     if (is_black(value.f_cos)) return;
     const bool alone = light->delta || settings_.strategy == Strategy::light;
-    Rgb direct = path.weight * value.f_cos * light->radiance *
-                 (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, value.pdf));
+    const Rgb scattered = path.weight * value.f_cos;
+    // The density of a path that goes on in this direction and survives().
+    const float competing = std::min(value.pdf, max_component(scattered)) * trust(bsdf);
+    Rgb direct = scattered * light->radiance *
+                 (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, competing));
     if (is_black(direct)) return;
     const Vec3f origin = ray_origin(surface, light->wi);
     if constexpr (kMedia) {
@@ -336,18 +341,41 @@ class Tracer {
     const std::optional<BsdfSample> sample = bsdf.sample(choice, u);
     if (!sample) return false;
     path.weight *= sample->weight;
-    path.pdf = sample->pdf;
+    path.pdf = sample->pdf * trust(bsdf);
     set_ray(path, surface, sample->wi);
     return true;
   }
 
-  /// Russian roulette by what the path still carries: the survivors' weights make up for the others. Without
+  /// Goes on from a surface whose samples all have one weight; false where the path ends. There survive() is
+  /// decided before the direction is, by a number that, stretched, serves for the direction too: both are
+  /// stratified together.
+  bool bounce(Path& path, const Surface& surface, const Bsdf& bsdf, const Rgb& weight, const Vec2f& u) const {
+    const Rgb carried = path.weight * weight;
+    const float survival = std::min(1.0f, max_component(carried));
+    if (u.x >= survival) return false;
+    const std::optional<BsdfSample> sample = bsdf.sample(0, {std::min(u.x / survival, 0x1.fffffep-1f), u.y});
+    if (!sample) return false;
+    path.weight = carried * (1 / survival);
+    path.pdf = sample->pdf * survival * trust(bsdf);
+    set_ray(path, surface, sample->wi);
+    return true;
+  }
+
+  /// Russian roulette by what the path still carries: the survivors' weights make up for the others. By a
+  /// stratified number: with another, all light that directions find has the noise of roulette. Without
   /// branches: the outcome is chance, and a branch on chance is mispredicted.
   bool survive(Path& path) const {
     const float survival = std::min(1.0f, max_component(path.weight));
     path.weight *= 1 / survival;
-    return path.sampler().next_independent() < survival;
+    path.pdf *= survival;
+    return path.sampler().next1() < survival;
   }
+
+  /// What the density of directions counts in the weights of both strategies. Where a surface is diffuse,
+  /// samples of a light are stratified samples of a smooth function, and the power heuristic, which knows
+  /// densities only, trusts them too little. Less than this, and the light of a plain sky would be found by
+  /// the worse strategy.
+  static float trust(const Bsdf& bsdf) { return bsdf.has_choice() ? 1.0f : 0.4f; }
 
   const TraceContext& context_;
   const IntegratorSettings& settings_;

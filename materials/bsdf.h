@@ -52,6 +52,12 @@ class Bsdf {
   /// Whether sample() looks at its first number.
   bool has_choice() const { return !std::holds_alternative<Lambert>(lobe_); }
 
+  /// The weight of every sample, where it is one for all directions, or nullptr.
+  const Rgb* constant_weight() const {
+    const auto* lambert = std::get_if<Lambert>(&lobe_);
+    return lambert && !surface_.bumpy ? &lambert->albedo : nullptr;
+  }
+
   /// Whether light may come from beyond the surface.
   bool transmits() const {
     if (std::holds_alternative<Lambert>(lobe_)) return false;  // the most frequent first

@@ -367,7 +367,7 @@ TEST(Environment, GradientsLightPlatesFromTheirSide) {
           Scene scene = plate(normal, 0.6f);
           scene.images.push_back(image);
           scene.environment = {Rgb(1, 1, 1), 0, turn ? rotation : Quatf(1, 0, 0, 0)};
-          const Picture p = render(scene, independent_settings(32, 32, 24));
+          const Picture p = render(scene, independent_settings(32, 32, 32));
           EXPECT_TRUE(mean_is(mean_of(p, 0), 0.6 * (1 + 2.0 / 3 * axis.dot(n) * sign), 0.03))
               << axis << n << sign << turn;
         }

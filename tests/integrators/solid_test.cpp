@@ -126,7 +126,7 @@ TEST(SolidLight, SpheresOverAPlate) {
       if (strategy == Strategy::bsdf && c.theta > 100) continue;
       const Picture p =
           render(sphere_over_plate(c.distance, c.theta),
-                 independent_settings(32, 32, strategy == Strategy::bsdf ? 1500 : 150), with(strategy));
+                 independent_settings(32, 32, strategy == Strategy::bsdf ? 1600 : 150), with(strategy));
       const double tolerance = c.theta > 100 ? 0.05 : strategy == Strategy::bsdf ? 0.03 : 0.02;
       EXPECT_TRUE(mean_is(mean_of(p, 0), 0.5 * c.factor, tolerance))
           << c.distance << " " << c.theta << ", strategy " << int(strategy);
