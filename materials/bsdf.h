@@ -39,7 +39,8 @@ class Bsdf {
     return eval_lobe(wi);
   }
 
-  std::optional<BsdfSample> sample(float u1, const Vec2f& u2) const {
+  // Lambert in place here too, which the compiler does not where there are several calls.
+  [[gnu::always_inline]] std::optional<BsdfSample> sample(float u1, const Vec2f& u2) const {
     const auto* lambert = std::get_if<Lambert>(&lobe_);
     std::optional<BsdfSample> s =
         lambert ? lambert->sample(to_local(surface_.wo), u1, u2) : sample_lobe(u1, u2);

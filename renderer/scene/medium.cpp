@@ -70,7 +70,7 @@ void MediumStack::cross(std::uint32_t body, const Medium* medium, bool into) {
   }
 }
 
-const Medium* MediumStack::current() const {
+const Medium* MediumStack::topmost() const {
   const Medium* best = nullptr;
   for (int i = 0; i < count_; ++i)
     if (!best || entries_[std::size_t(i)].medium->priority >= best->priority)

@@ -54,10 +54,12 @@ class MediumStack {
   /// through the back of an open surface, changes nothing.
   void cross(std::uint32_t body, const Medium* medium, bool into);
 
-  /// What is here; null: vacuum.
-  const Medium* current() const;
+  /// What is here; null: vacuum, as nearly everywhere.
+  const Medium* current() const { return empty() ? nullptr : topmost(); }
 
  private:
+  const Medium* topmost() const;
+
   struct Entry {
     std::uint32_t body;
     std::int32_t depth;  // how often entered
