@@ -2,6 +2,7 @@
 /// bit, and their resolution into pictures.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -38,8 +39,12 @@ struct PixelSums {
   std::uint32_t samples = 0;
   std::uint32_t object = 0;  // of the first sample: an id has no mean
   double color[3] = {}, squares[3] = {};
+  // The colour when the last power of two of samples was full: see variance_by_halves().
+  float earlier[3] = {};
 
   void add(const Rgb& c) {
+    if (std::has_single_bit(samples))
+      for (int k = 0; k < 3; ++k) earlier[k] = float(color[k]);
     for (int k = 0; k < 3; ++k) {
       color[k] += c[k];
       squares[k] += double(c[k]) * c[k];

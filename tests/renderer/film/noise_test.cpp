@@ -13,9 +13,9 @@ void add(FilmTile& tile, int x, int y, const Rgb& c) {
   tile.pixels[std::size_t(y - tile.area.y0) * (tile.area.x1 - tile.area.x0) + (x - tile.area.x0)].add(c);
 }
 
-// One block of five pixels with means of 2.5 and variances of the mean of 5/12, and one of a single pixel
-// without noise. Caught: the variance of one sample for that of the mean, pixels of the edge that count as
-// whole blocks, a floor that is missing, squared once too often, or not of the whole picture.
+// One block of four pixels with means of 2.5 and halves that are 1.5 and 3.5, and one of a single pixel
+// without noise. Caught: the variance of a half for that of the whole, pixels of the edge that count as whole
+// blocks, a floor that is missing, squared once too often, or not of the whole picture.
 TEST(Noise, IsTheRootMeanSquareErrorOverTheMeanOfTheBlock) {
   Film film(5, 1, {});
   FilmTile tile = film.checkout({0, 0, 5, 1});
@@ -29,13 +29,36 @@ TEST(Noise, IsTheRootMeanSquareErrorOverTheMeanOfTheBlock) {
   ASSERT_EQ(noise.rows, 1);
   EXPECT_EQ(noise.samples, (std::vector<std::uint32_t>{4, 4}));
   EXPECT_EQ(noise.cost, (std::vector<double>{10, 3}));
-  const double floor = kNoiseFloor * 3, variance = 5.0 / 12, error = variance / (2.5 * 2.5 + floor * floor);
+  const double floor = kNoiseFloor * 3, variance = 1, error = variance / (2.5 * 2.5 + floor * floor);
   EXPECT_NEAR(noise.error[0], error, 1e-12);
   const double least = 2.5 - 1.645 * std::sqrt(variance / 4);
   EXPECT_NEAR(noise.most_error[0], variance / (least * least + floor * floor), 1e-12);
   EXPECT_EQ(noise.error[1], 0);
   EXPECT_NEAR(film.noise().estimate, std::sqrt(0.8 * error), 1e-12);
   EXPECT_GT(film.noise().bound, std::sqrt(0.8 * noise.most_error[0]));
+}
+
+// Of any number of independent samples. Caught: halves weighed alike where one has two thirds, or the wrong
+// half kept.
+TEST(Noise, HalvesPredictTheVarianceOfTheMean) {
+  for (const int samples : {2, 3, 6, 7, 8, 17}) {
+    Statistics predicted;
+    TestRandom random(std::uint32_t(40 + samples));
+    for (int i = 0; i < 400; ++i) {
+      Film film(4, 4, {});
+      FilmTile tile = film.checkout({0, 0, 4, 4});
+      tile.rays = {16};
+      for (int p = 0; p < 16; ++p)
+        for (int k = 0; k < samples; ++k) {
+          const float c = 10 + random.next1();
+          add(tile, p % 4, p / 4, {c, c, c});
+        }
+      film.merge(tile);
+      predicted.add(film.block_noise().error[0]);
+    }
+    const double floor = kNoiseFloor * 10.5;
+    EXPECT_TRUE(mean_is(predicted, 1.0 / 12 / samples / (10.5 * 10.5 + floor * floor), 0.1)) << samples;
+  }
 }
 
 TEST(Noise, OfOneSampleIsUnknownAndOfBlackNone) {

@@ -142,7 +142,7 @@ TEST(AdaptiveSession, HasLittleBias) {
 
 RenderSettings adaptive_settings() {
   RenderSettings settings = small(kNoLimit);
-  settings.noise = .12;
+  settings.noise = .06;
   return settings;
 }
 
@@ -180,7 +180,7 @@ TEST(AdaptiveSession, ThePictureDoesNotDependOnThreadsTilesOrInterruptions) {
 TEST(AdaptiveSession, ReachesTheTargetWithSamplesWhereTheyAreNeeded) {
   Session session = make_session(everything(), adaptive_settings());
   finish(session);
-  EXPECT_LE(session.film().noise().bound, .12);
+  EXPECT_LE(session.film().noise().bound, .06);
   EXPECT_EQ(session.progress().done, 1);
   const auto [least, most] = std::ranges::minmax(session.film().plan());
   EXPECT_GE(least, kMinAdaptiveSamples);
@@ -188,11 +188,11 @@ TEST(AdaptiveSession, ReachesTheTargetWithSamplesWhereTheyAreNeeded) {
   EXPECT_EQ(session.film().min_samples(), least);
   // Going on with a smaller target goes on from there.
   RenderSettings finer = adaptive_settings();
-  finer.noise = .1;
+  finer.noise = .05;
   Session next = make_session(everything(), finer);
   next.film().restore(session.film().save());
   finish(next);
-  EXPECT_LE(next.film().noise().bound, .1);
+  EXPECT_LE(next.film().noise().bound, .05);
 }
 
 }  // namespace
