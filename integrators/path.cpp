@@ -20,6 +20,7 @@ struct Path {
   CameraPath* camera;
   Rgb weight;
   float pdf;
+  float trust;    // Tracer::trust() where it scattered last
   Receiver from;  // where it scattered last; not set where pdf is infinite
   // In a world with media:
   MediumStack media;  // around the path
@@ -60,6 +61,7 @@ class Tracer {
     path.camera = &camera;
     path.weight = Rgb(1, 1, 1);
     path.pdf = kInfinity;
+    path.trust = 1;
     if constexpr (!kMedia) return;
     path.media = context_.camera_media;
     path.scale = 1;
@@ -252,11 +254,11 @@ class Tracer {
   }
 
   /// The weight of light that the path ran into, where sampling lights would have found it with density
-  /// `light_pdf`.
-  float hit_weight(const Path& path, float light_pdf) const {
+  /// `light_pdf`; the path's own density counts `trust` times.
+  float hit_weight(const Path& path, float light_pdf, float trust = 1) const {
     if (path.pdf == kInfinity || settings_.strategy == Strategy::bsdf) return 1;
     if (settings_.strategy == Strategy::light) return light_pdf > 0 ? 0.0f : 1.0f;
-    return power_heuristic(path.pdf, light_pdf);
+    return power_heuristic(path.pdf * trust, light_pdf);
   }
 
   Rgb environment(const Path& path) const {
@@ -273,7 +275,7 @@ class Tracer {
     if (cosine <= 0) return Rgb(0, 0, 0);
     const float competing =
         path.pdf == kInfinity ? 0 : context_.lights.pdf_area_light(path.hit(), path.from, cosine);
-    return light.radiance * hit_weight(path, competing);
+    return light.radiance * hit_weight(path, competing, path.trust);
   }
 
   Rgb emission(const Path& path, const Surface& surface) const {
@@ -284,7 +286,8 @@ class Tracer {
     if (path.pdf != kInfinity && cosine != 0)
       competing = path.hit().is_solid() ? context_.lights.pdf_solid(path.hit(), path.from, cosine)
                                         : context_.lights.pdf_triangle(path.hit(), path.from, cosine);
-    return eval_emission(context_.scene, material, surface.uvs, cosine) * hit_weight(path, competing);
+    return eval_emission(context_.scene, material, surface.uvs, cosine) *
+           hit_weight(path, competing, path.trust);
   }
 
   /// Samples a point of a light; whether it is seen is for later.
@@ -303,7 +306,8 @@ class Tracer {
     const bool alone = light->delta || settings_.strategy == Strategy::light;
     const Rgb scattered = path.weight * value.f_cos;
     // The density of a path that goes on in this direction and survives().
-    const float competing = std::min(value.pdf, max_component(scattered)) * trust(bsdf);
+    const float competing =
+        std::min(value.pdf, max_component(scattered)) * (light->at_infinity ? 1 : trust(bsdf));
     Rgb direct = scattered * light->radiance *
                  (alone ? 1 / light->pdf : power_heuristic_over_pdf(light->pdf, competing));
     if (is_black(direct)) return;
@@ -341,7 +345,8 @@ class Tracer {
     const std::optional<BsdfSample> sample = bsdf.sample(choice, u);
     if (!sample) return false;
     path.weight *= sample->weight;
-    path.pdf = sample->pdf * trust(bsdf);
+    path.pdf = sample->pdf;
+    path.trust = trust(bsdf);
     set_ray(path, surface, sample->wi);
     return true;
   }
@@ -356,7 +361,8 @@ class Tracer {
     const std::optional<BsdfSample> sample = bsdf.sample(0, {std::min(u.x / survival, 0x1.fffffep-1f), u.y});
     if (!sample) return false;
     path.weight = carried * (1 / survival);
-    path.pdf = sample->pdf * survival * trust(bsdf);
+    path.pdf = sample->pdf * survival;
+    path.trust = trust(bsdf);
     set_ray(path, surface, sample->wi);
     return true;
   }
@@ -371,10 +377,10 @@ class Tracer {
     return path.sampler().next1() < survival;
   }
 
-  /// What the density of directions counts in the weights of both strategies. Where a surface is diffuse,
-  /// samples of a light are stratified samples of a smooth function, and the power heuristic, which knows
-  /// densities only, trusts them too little. Less than this, and the light of a plain sky would be found by
-  /// the worse strategy.
+  /// What the density of directions counts in the weights of both strategies for lights that have a place.
+  /// Where a surface is diffuse, samples of such a light are stratified samples of a smooth function, and the
+  /// power heuristic, which knows densities only, trusts them too little. A sky is found as well by
+  /// directions.
   static float trust(const Bsdf& bsdf) { return bsdf.has_choice() ? 1.0f : 0.4f; }
 
   const TraceContext& context_;

@@ -262,9 +262,9 @@ TEST_F(CommandLine, NoiseEndsTheRender) {
     EXPECT_EQ(run(arguments).code, 0);
     return json::parse(read_bytes(work("a.json")));
   };
-  json stats = render({"--noise", ".1"});
-  EXPECT_LE(stats["noise"]["bound"].get<double>(), .1);
-  EXPECT_GE(stats["noise"]["bound"].get<double>(), .06);
+  json stats = render({"--noise", ".01"});
+  EXPECT_LE(stats["noise"]["bound"].get<double>(), .01);
+  EXPECT_GE(stats["noise"]["bound"].get<double>(), .005);
   EXPECT_LE(stats["noise"]["estimate"], stats["noise"]["bound"]);
   EXPECT_GE(stats["least_samples_per_pixel"], 16);
   EXPECT_GT(stats["samples_per_pixel"], stats["least_samples_per_pixel"]);
