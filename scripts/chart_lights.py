@@ -10,12 +10,11 @@ tables in Markdown, and draws docs/lights.svg. With --csv FILE nothing is render
 numpy and matplotlib.
 """
 
-import math
 from pathlib import Path
 
 from charts import add_grid, options, save, subplots
 from make_lights import room
-from measured import CHARTS, percent, read, references, relative_rmse, render, write
+from measured import CHARTS, first_below, percent, read, references, relative_rmse, render, write
 
 COUNTS = (10, 100, 1000, 10000)
 SIZE = ["--size", "128x96"]
@@ -53,13 +52,8 @@ def counts(rows: list[dict]) -> list[float]:
 
 
 def seconds_to(points: list[dict], error: float) -> float:
-    """The CPU time to an error, on the line between the points around it, both axes logarithmic."""
-    for before, after in zip(points, points[1:]):
-        if after["relative_rmse"] <= error < before["relative_rmse"]:
-            step = math.log(before["relative_rmse"] / error)
-            share = step / math.log(before["relative_rmse"] / after["relative_rmse"])
-            return before["cpu_seconds"] * (after["cpu_seconds"] / before["cpu_seconds"]) ** share
-    return math.nan
+    """The CPU time to an error."""
+    return first_below([p["cpu_seconds"] for p in points], [p["relative_rmse"] for p in points], error)
 
 
 def print_tables(rows: list[dict]) -> None:

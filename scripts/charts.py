@@ -32,9 +32,12 @@ def add_grid(axes: Any) -> None:
     axes.set_axisbelow(True)
 
 
-def save(figure: Any, out: Path, columns: int, top: float = 0.93) -> None:
-    """Writes the figure, the legend of its first axes above it in so many columns."""
+def save(figure: Any, out: Path, columns: int, top: float = 0.93, png: bool = False) -> None:
+    """Writes the figure, the legend of its first axes above it in so many columns; as a PNG too, beside it, where that
+    is asked for."""
     handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncol=columns, frameon=False)
     figure.tight_layout(rect=(0, 0, 1, top))
     figure.savefig(out, metadata={"Date": None, "Creator": None})
+    if png:
+        figure.savefig(out.with_suffix(".png"), dpi=110, metadata={"Software": None})

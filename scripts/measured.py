@@ -1,14 +1,16 @@
-"""What the chart scripts share: tables of numbers, measured now or kept from before, and pictures with their errors."""
+"""What the chart scripts share: tables of numbers, measured now or kept from before, pictures with their errors, and
+curves of error over cost."""
 
 import csv
 import hashlib
 import json
+import math
 import struct
 import subprocess
 import zlib
 from decimal import Decimal
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Callable, Iterable, Sequence
 
 import numpy
 
@@ -75,11 +77,24 @@ def references(program: Path, scene: Path, options: Sequence[str]) -> list[numpy
     return pictures
 
 
-def relative_rmse(picture: numpy.ndarray, truth: Sequence[numpy.ndarray]) -> float:
-    """The root mean square error, over the mean. The error is taken against each of two references and the two are
-    multiplied, so that the references' own noise does not add to it."""
+def relative_mse(picture: numpy.ndarray, truth: Sequence[numpy.ndarray]) -> float:
+    """The mean square error, over the square of the mean. The error is taken against each of two references and the two
+    are multiplied, so that the references' own noise does not add to it; what is left of it can make a small error
+    negative."""
     squares = ((picture - truth[0]) * (picture - truth[1])).mean()
-    return float(max(squares, 0) ** 0.5 / ((truth[0].mean() + truth[1].mean()) / 2))
+    return float(squares / ((truth[0].mean() + truth[1].mean()) / 2) ** 2)
+
+
+def relative_rmse(picture: numpy.ndarray, truth: Sequence[numpy.ndarray]) -> float:
+    """The root mean square error, over the mean."""
+    return max(relative_mse(picture, truth), 0) ** 0.5
+
+
+def pixel_relative_mse(picture: numpy.ndarray, truth: Sequence[numpy.ndarray]) -> float:
+    """As relative_mse(), but each square is over the square of its own pixel, plus .01: relMSE (Rousselle, Knaus and
+    Zwicker 2011, Adaptive Sampling and Reconstruction using Greedy Error Minimization)."""
+    squares = (picture - truth[0]) * (picture - truth[1])
+    return float((squares / (((truth[0] + truth[1]) / 2) ** 2 + 0.01)).mean())
 
 
 def read_exr(path: Path) -> numpy.ndarray:
@@ -111,3 +126,37 @@ def read_exr(path: Path) -> numpy.ndarray:
         rows.append(numpy.frombuffer(block, "<f4").reshape(count, 3, width))
     # The channels are in the order of their names.
     return numpy.concatenate(rows)[:, ::-1].swapaxes(1, 2).astype(float)
+
+
+# --- curves -----------------------------------------------------------------------------------------------------------
+
+
+def at(xs: Sequence[float], ys: Sequence[float], x: float) -> float:
+    """The value at x of the curve through the points, straight between them where both axes are logarithmic; not a
+    number outside."""
+    inside = min(xs) <= x <= max(xs) and min(ys) > 0
+    return math.exp(numpy.interp(math.log(x), numpy.log(xs), numpy.log(ys))) if inside else math.nan
+
+
+def first_below(xs: Sequence[float], ys: Sequence[float], y: float) -> float:
+    """Where the same curve first falls to y: at its first point, where that is below."""
+    if ys[0] <= y:
+        return xs[0]
+    for i in range(len(xs) - 1):
+        if ys[i + 1] <= y < ys[i]:
+            share = math.log(ys[i] / y) / math.log(ys[i] / ys[i + 1])
+            return xs[i] * (xs[i + 1] / xs[i]) ** share
+    return math.nan
+
+
+def slope(xs: Sequence[float], ys: Sequence[float]) -> float:
+    """Of the line fitted to the points, both axes logarithmic."""
+    return float(numpy.polyfit(numpy.log(xs), numpy.log(ys), 1)[0]) if min(ys) > 0 else math.nan
+
+
+def jackknife(statistic: Callable[[set[Any]], float], repeats: Iterable[Any]) -> tuple[float, float]:
+    """What the statistic is of all repeats, and its standard error, by leaving out one after the other."""
+    every = set(repeats)
+    without = numpy.array([statistic(every - {one}) for one in sorted(every)])
+    deviations = without - without.mean()
+    return statistic(every), math.sqrt((len(every) - 1) / len(every) * (deviations**2).sum())

@@ -112,7 +112,8 @@ Picture Film::resolve() const {
 std::uint32_t Film::min_samples() const {
   const std::lock_guard lock(mutex_);
   std::uint32_t least = 0xffffffffu;
-  for (const PixelSums& p : pixels_) least = std::min(least, p.samples);
+  for (const PixelSums& p : pixels_)
+    if (least = std::min(least, p.samples); least == 0) break;
   return least;
 }
 
@@ -169,10 +170,11 @@ void Film::set_plan(std::vector<std::uint32_t> samples) {
 bool Film::is_behind_plan() const {
   const std::lock_guard lock(mutex_);
   for (int y = 0; y < height_; y += kBlock)
-    for (int x = 0; x < width_; x += kBlock)
-      if (pixels_[std::size_t(y) * width_ + x].samples <
-          plan_[std::size_t(y / kBlock) * block_columns() + x / kBlock])
-        return true;
+    for (int x = 0; x < width_; x += kBlock) {
+      const std::uint32_t planned = plan_[std::size_t(y / kBlock) * block_columns() + x / kBlock];
+      // A film that nothing is planned for yet is not looked at.
+      if (planned > 0 && pixels_[std::size_t(y) * width_ + x].samples < planned) return true;
+    }
   return false;
 }
 

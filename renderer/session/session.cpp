@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "renderer/base/parallel.h"
 #include "renderer/session/adaptive.h"
@@ -130,14 +131,16 @@ void Session::render() {
   for (bool more = film_.is_behind_plan() || plan_pass(); more; more = plan_pass()) {
     render_pass();
     if (cancel_ || out_of_time()) return;
-    finished_samples_ = film_.min_samples();
+    finished_samples_ = *std::ranges::min_element(film_.plan());
   }
 }
 
 /// Plans the next pass; false where the picture is finished.
 bool Session::plan_pass() {
   const std::uint32_t done = finished_samples_;
-  done_ = std::min(1.0, film_.mean_samples() / settings_.spp);
+  const std::vector<std::uint32_t>& planned = film_.plan();  // what all blocks have now
+  const double samples = std::accumulate(planned.begin(), planned.end(), 0.0);
+  done_ = std::min(1.0, samples / double(planned.size()) / settings_.spp);
   if (settings_.noise > 0 && done >= kMinAdaptiveSamples) {
     const BlockNoise noise = film_.block_noise();
     // The error falls with the square root of the work.
