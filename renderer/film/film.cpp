@@ -1,5 +1,6 @@
 #include "renderer/film/film.h"
 
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 

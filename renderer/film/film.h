@@ -2,7 +2,6 @@
 /// bit, and their resolution into pictures.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -43,7 +42,7 @@ struct PixelSums {
   float earlier[3] = {};
 
   void add(const Rgb& c) {
-    if (std::has_single_bit(samples))
+    if ((samples & (samples - 1)) == 0)  // 0 or a power of two; std::has_single_bit() calls a function here
       for (int k = 0; k < 3; ++k) earlier[k] = float(color[k]);
     for (int k = 0; k < 3; ++k) {
       color[k] += c[k];
