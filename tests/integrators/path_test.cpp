@@ -464,8 +464,8 @@ TEST(Path, ErrorFallsWithTheSquareRootOfSamplesAndFasterWithSobol) {
   EXPECT_LT(convergence_slope(SamplerKind::sobol), -0.9);
 }
 
-// Caught: roulette by a number that is not stratified (7 times the error), or left out of the weights (3
-// times); directions that count as much as light samples of the same density (1.4 times).
+// Caught: roulette by a number that is not stratified (1.13 times the error of light samples), or left out of
+// the weight of one strategy (10 times, a bias).
 TEST(Path, CombiningStrategiesKeepsWhatTheBetterGains) {
   const double light = plate_error(SamplerKind::sobol, Strategy::light, 64),
                mis = plate_error(SamplerKind::sobol, Strategy::mis, 64);
