@@ -11,7 +11,7 @@ namespace parian {
 namespace {
 
 // Layout: the mark, the length of the key, the key, a checksum of the state, the state.
-constexpr char kMark[] = "parian checkpoint 1\n";
+constexpr char kMark[] = "parian checkpoint 2\n";
 constexpr std::size_t kMarkSize = sizeof(kMark) - 1;
 
 /// FNV-1a over 64 bits.
