@@ -1,6 +1,7 @@
 /// glTF 2.0 files into a Scene, the only code that knows tinygltf.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,16 @@
 
 namespace parian {
 
+struct LoadSettings {
+  std::function<void(const char* phase)> on_phase;  // told what begins, if set
+};
+
 /// Reads the default scene of a .gltf or .glb file (external files and data URIs included), validated. Things
 /// that are skipped are named in `warnings`, one line each, each at most once a file. Throws InputError.
-Scene load_gltf(const std::string& path, std::vector<std::string>& warnings);
+Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vector<std::string>& warnings);
 
 /// All files as one scene. Throws InputError.
-Scene load_scene(const std::vector<std::string>& paths, std::vector<std::string>& warnings);
+Scene load_scene(const std::vector<std::string>& paths, const LoadSettings& settings,
+                 std::vector<std::string>& warnings);
 
 }  // namespace parian

@@ -12,7 +12,7 @@ Command add_info_command(CLI::App& app) {
   c.add_option("SCENE", *scenes, ".gltf or .glb files; several are composed into one scene")->required();
   return [scenes] {
     std::vector<std::string> warnings;
-    const Scene scene = load_scene(*scenes, warnings);
+    const Scene scene = load_scene(*scenes, {}, warnings);
     fmt::print("{}", describe(scene, make_world(scene)));
     for (const std::string& warning : warnings) fmt::print("{:<12} {}\n", "note", warning);
     return kDone;

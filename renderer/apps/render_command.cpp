@@ -179,7 +179,7 @@ void check_outputs(const RenderOptions& o) {
 
 /// The scene to render; `notes` holds what it lacks and what was skipped.
 std::shared_ptr<const Scene> load(const RenderOptions& o, std::vector<std::string>& notes) {
-  auto scene = std::make_shared<Scene>(load_scene(o.scenes, notes));
+  auto scene = std::make_shared<Scene>(load_scene(o.scenes, {}, notes));
   if (!o.environment.empty()) {
     scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
     scene->images.push_back(read_image(o.environment));

@@ -191,7 +191,7 @@ int main(int argc, char** argv) {
             runs = argc > 4 ? std::atoi(argv[4]) : 7;
   set_thread_count(1);
   std::vector<std::string> notes;
-  auto scene = std::make_shared<Scene>(load_scene({argv[1]}, notes));
+  auto scene = std::make_shared<Scene>(load_scene({argv[1]}, {}, notes));
   add_missing_camera_and_light(*scene);
   RenderSettings settings;
   settings.width = settings.height = size;

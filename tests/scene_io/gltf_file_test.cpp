@@ -74,9 +74,9 @@ TEST_F(GltfFile, ReadsDocumentWithNothingInIt) {
 }
 
 TEST_F(GltfFile, RefusesMissingFiles) {
-  EXPECT_THROW(load_gltf(path("absent.glb"), warnings), InputError);
-  EXPECT_THROW(load_gltf(path(""), warnings), InputError);  // the folder
-  EXPECT_THROW(load_gltf("/dev/zero", warnings), InputError);
+  EXPECT_THROW(load_gltf(path("absent.glb"), {}, warnings), InputError);
+  EXPECT_THROW(load_gltf(path(""), {}, warnings), InputError);  // the folder
+  EXPECT_THROW(load_gltf("/dev/zero", {}, warnings), InputError);
   const GltfBuilder builder = triangle();
   EXPECT_EQ(refusal(builder.gltf("absent.bin"), "scene.gltf"),
             "/buffers/0/uri: expected a file, '" + path("absent.bin") + "' is not one");
@@ -140,7 +140,8 @@ TEST_F(GltfFile, LoadsSeveralFilesAsOneScene) {
   second.root["meshes"][0]["primitives"][0]["material"] = 0;
   second.root["nodes"] = {{{"mesh", 0}}};
   second.root["scenes"] = {{{"nodes", {0}}}};
-  const Scene scene = load_scene({write("a.glb", triangle().glb()), write("b.glb", second.glb())}, warnings);
+  const Scene scene =
+      load_scene({write("a.glb", triangle().glb()), write("b.glb", second.glb())}, {}, warnings);
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.materials.at(std::size_t(scene.meshes[1].primitives[0].material)).name, "red");
   EXPECT_EQ(scene.nodes.at(0).mesh, 1);

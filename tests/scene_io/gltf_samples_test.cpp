@@ -17,7 +17,7 @@ TEST(GltfSamples, LoadOrAreRefusedForARequiredExtension) {
     const std::string file = entry.path().string();
     std::vector<std::string> warnings;
     try {
-      const Scene scene = load_gltf(file, warnings);
+      const Scene scene = load_gltf(file, {}, warnings);
       EXPECT_FALSE(scene.meshes.empty()) << file;
       EXPECT_FALSE(scene.roots.empty()) << file;
       ++loaded;

@@ -46,7 +46,7 @@ std::vector<std::string> scenes(bool with_values) {
 Scene load(const std::string& name) {
   std::vector<std::string> warnings;
   const fs::path folder = fs::path(PARIAN_SOURCE_DIR "/scenes") / name;
-  Scene scene = load_scene({folder / (name + ".gltf")}, warnings);
+  Scene scene = load_scene({folder / (name + ".gltf")}, {}, warnings);
   for (const std::string& warning : warnings) ADD_FAILURE() << name << ": " << warning;
   EXPECT_TRUE(add_missing_camera_and_light(scene).empty()) << name;
   return scene;
@@ -133,7 +133,7 @@ TEST(NightlyRealModels, RenderWithoutDroppedSamples) {
     std::vector<std::string> warnings;
     Scene scene;
     try {
-      scene = load_scene({entry.path()}, warnings);
+      scene = load_scene({entry.path()}, {}, warnings);
     } catch (const InputError&) {
       ++refused;
       continue;

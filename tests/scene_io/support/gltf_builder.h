@@ -47,7 +47,7 @@ class GltfTest : public testing::Test {
 
   Scene load(const std::string& bytes, const std::string& name = "scene.glb") {
     warnings.clear();
-    return load_gltf(write(name, bytes), warnings);
+    return load_gltf(write(name, bytes), {}, warnings);
   }
 
   /// The message with which a file is refused, without the path of the file; empty where it is read.
