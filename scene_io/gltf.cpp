@@ -1,9 +1,38 @@
 #include "scene_io/gltf.h"
 
+#include <span>
+#include <utility>
+
 #include "scene_io/gltf_read.h"
 #include "scene_io/gltf_schema.h"
 
 namespace parian {
+namespace {
+
+// Gives back those pages of the files that no mesh reads: JSON, pictures, and what was decoded elsewhere.
+void release_unused(const GltfDocument& document, const Scene& scene) {
+  std::vector<std::span<const std::byte>> used;
+  const auto use = [&](const auto& array) {
+    used.push_back(std::as_bytes(std::span(array.data(), array.size())));
+  };
+  for (const Mesh& mesh : scene.meshes)
+    for (const Primitive& p : mesh.primitives) {
+      use(p.positions);
+      use(p.normals);
+      use(p.tangents);
+      for (const auto& uvs : p.uvs) use(uvs);
+      use(p.colors);
+      use(p.triangles);
+    }
+  for (const auto& pages : document.pages) {
+    std::vector<std::span<const std::byte>> parts;
+    for (const auto& span : used)
+      if (span.data() >= pages->data() && span.data() < pages->data() + pages->size()) parts.push_back(span);
+    pages->release_all_but(std::move(parts));
+  }
+}
+
+}  // namespace
 
 Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vector<std::string>& warnings) {
   const auto begin = [&](const char* phase) {
@@ -27,6 +56,7 @@ Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vect
   read_nodes(document, accessors, scene, notes);
   begin("checking");
   validate(scene, path);
+  release_unused(document, scene);
   return scene;
 }
 

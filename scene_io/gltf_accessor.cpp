@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
-#include <memory>
+#include <optional>
 #include <type_traits>
 
 #include "renderer/base/parallel.h"
@@ -35,6 +36,56 @@ std::string describe(std::size_t dimension, Components components) {
   if (components.normalized_integers)
     text += components.plain_integers ? " or 8 or 16 bit" : " or normalized 8 or 16 bit";
   return text;
+}
+
+// The array where it lies in the file, where that is how T lies in memory; else nothing.
+template <class T>
+std::optional<SharedArray<T>> share(const GltfDocument& document, const tinygltf::Accessor& accessor,
+                                    const Elements& elements) {
+  constexpr int kType =
+      std::is_same_v<T, std::uint32_t> ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_FLOAT;
+  const bool fits = elements.data && !accessor.sparse.isSparse && elements.component_type == kType &&
+                    std::size_t(elements.components) * sizeof(float) == sizeof(T) &&
+                    elements.stride == sizeof(T) &&
+                    reinterpret_cast<std::uintptr_t>(elements.data) % alignof(T) == 0;
+  if (!fits) return std::nullopt;
+  for (const SharedArray<std::byte>& bytes : document.storage) {
+    if (elements.data < bytes.data() || elements.data >= bytes.end()) continue;
+    const bool padded =
+        bytes.padded() || elements.data + accessor.count * sizeof(T) + kArrayPadding <= bytes.end();
+    return SharedArray<T>(bytes.owner(), reinterpret_cast<const T*>(elements.data), accessor.count, padded);
+  }
+  return std::nullopt;
+}
+
+// Exponent bits all set is what Inf and NaN are made of. Without a branch, so that it is done by lanes.
+bool all_finite(const float* values, std::size_t count) {
+  constexpr std::uint32_t kExponent = 0x7f800000;
+  bool bad = false;
+  for (std::size_t i = 0; i < count; ++i)
+    bad |= (std::bit_cast<std::uint32_t>(values[i]) & kExponent) == kExponent;
+  return !bad;
+}
+
+template <class Vector>
+void check_finite(const SharedArray<Vector>& array, const GltfDocument& document, int number) {
+  constexpr std::size_t kSize = sizeof(Vector) / sizeof(float);
+  if (array.empty()) return;
+  const float* const values = &array[0][0];
+  for_chunks(array.size(), [&](std::size_t begin, std::size_t end) {
+    if (all_finite(values + begin * kSize, (end - begin) * kSize)) return;
+    std::size_t i = begin * kSize;
+    while (std::isfinite(values[i])) ++i;
+    document.fail(fmt::format("/accessors/{}", number),
+                  fmt::format("expected finite numbers, element {} holds {}", i / kSize, values[i]));
+  });
+}
+
+// Before memory for a decoded array is taken.
+void require(const GltfDocument& document, std::size_t bytes, const std::string& where) try {
+  require_memory(bytes, "decoding it");
+} catch (const std::runtime_error& error) {
+  document.fail(where, error.what());
 }
 
 }  // namespace
@@ -80,10 +131,15 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
   if (const auto known = cache.find(number); known != cache.end()) return known->second;
 
   claim(accessor.count * sizeof(Vector), where);
-  const auto owner = std::make_shared_for_overwrite<Vector[]>(accessor.count);
-  Vector* const out = owner.get();
-  constexpr std::size_t kStride = sizeof(Vector) / sizeof(float);
   const Elements base = base_elements(document_, accessor);
+  if (auto shared = share<Vector>(document_, accessor, base)) {
+    check_finite(*shared, document_, number);
+    return cache[number] = *std::move(shared);
+  }
+  require(document_, accessor.count * sizeof(Vector), where);
+  auto [array, out_data] = make_shared_array<Vector>(accessor.count);
+  Vector* const out = out_data;
+  constexpr std::size_t kStride = sizeof(Vector) / sizeof(float);
   for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     if (!base.data) std::fill(out + begin, out + end, Vector(0));
     if (base.data) decode_floats(base, begin, end, &out[begin][0], kStride);
@@ -93,17 +149,8 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
   for_sparse(document_, number, [&](std::size_t position, std::size_t k) {
     decode_floats(replacements, k, k + 1, &out[position][0], kStride);
   });
-  for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (unsigned int c = 0; c < Vector::dimensions(); ++c) {
-        if (!std::isfinite(out[i][int(c)])) {
-          document_.fail(fmt::format("/accessors/{}", number),
-                         fmt::format("expected finite numbers, element {} holds {}", i, out[i][int(c)]));
-        }
-      }
-    }
-  });
-  return cache[number] = SharedArray<Vector>(owner, out, accessor.count);
+  check_finite(array, document_, number);
+  return cache[number] = std::move(array);
 }
 
 template SharedArray<Vec2f> AccessorReader::vectors<Vec2f>(int, Components, const std::string&);
@@ -119,9 +166,12 @@ AccessorReader::Indices AccessorReader::decode_indices(int number, const std::st
     document_.fail(where, "expected an accessor of SCALAR, unsigned integers");
   }
   claim(accessor.count * sizeof(std::uint32_t), where);
-  const auto owner = std::make_shared_for_overwrite<std::uint32_t[]>(accessor.count);
-  std::uint32_t* const out = owner.get();
   const Elements base = base_elements(document_, accessor);
+  if (auto shared = share<std::uint32_t>(document_, accessor, base))
+    return checked(*std::move(shared), number);
+  require(document_, accessor.count * sizeof(std::uint32_t), where);
+  auto [array, out_data] = make_shared_array<std::uint32_t>(accessor.count);
+  std::uint32_t* const out = out_data;
   for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     if (base.data) decode_integers(base, begin, end, out + begin);
     if (!base.data) std::fill(out + begin, out + end, 0);
@@ -130,19 +180,25 @@ AccessorReader::Indices AccessorReader::decode_indices(int number, const std::st
   for_sparse(document_, number, [&](std::size_t position, std::size_t k) {
     decode_integers(replacements, k, k + 1, out + position);
   });
+  return checked(std::move(array), number);
+}
+
+AccessorReader::Indices AccessorReader::checked(SharedArray<std::uint32_t> indices, int number) const {
   std::atomic<std::uint32_t> largest = 0;
-  for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
-    const std::uint32_t local = *std::max_element(out + begin, out + end);
+  for_chunks(indices.size(), [&](std::size_t begin, std::size_t end) {
+    std::uint32_t local = 0;
+    for (std::size_t i = begin; i < end; ++i) local = std::max(local, indices[i]);
     std::uint32_t seen = largest;
     while (local > seen && !largest.compare_exchange_weak(seen, local)) {
     }
   });
+  const auto& accessor = document_.model.accessors[std::size_t(number)];
   const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * element_bytes(accessor));
   if (largest == restart) {
     document_.fail(fmt::format("/accessors/{}", number),
                    fmt::format("expected no index {}, which is the primitive restart value", restart));
   }
-  return {{owner, out, accessor.count}, largest};
+  return {std::move(indices), largest};
 }
 
 SharedArray<std::uint32_t> AccessorReader::indices(int number, std::size_t limit, const std::string& where) {

@@ -20,8 +20,9 @@ struct Components {
   bool plain_integers = false;       // 8 and 16 bit, taken as numbers
 };
 
-/// Decodes accessors, each once: primitives that share one share its array. What all of them together may
-/// take is bounded by the size of the file, however often accessors overlap.
+/// Decodes accessors, each once: primitives that share one share its array, and what lies in the file as it
+/// does in memory stays where it is. What all of them together may take is bounded by the size of the file,
+/// however often accessors overlap.
 class AccessorReader {
  public:
   explicit AccessorReader(const GltfDocument& document);
@@ -43,6 +44,8 @@ class AccessorReader {
     std::uint32_t largest = 0;
   };
   Indices decode_indices(int accessor, const std::string& where);
+  /// Finds the largest, which must not be the restart value.
+  Indices checked(SharedArray<std::uint32_t> indices, int accessor) const;
 
   const GltfDocument& document_;
   std::size_t claimable_;

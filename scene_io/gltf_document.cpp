@@ -61,8 +61,10 @@ std::span<const std::byte> load_buffer(GltfDocument& document, const json& buffe
   if (has_uri) {
     const auto& uri = buffer["uri"].get_ref<const std::string&>();
     try {
-      document.storage.push_back(is_data_uri(uri) ? decode_data_uri(uri)
-                                                  : read_asset_file(resolve_uri(uri, document.folder)));
+      if (is_data_uri(uri))
+        document.storage.push_back(decode_data_uri(uri));
+      else
+        document.store_file(resolve_uri(uri, document.folder));
     } catch (const std::runtime_error& error) {
       document.fail(where + "/uri", error.what());
     }
@@ -115,14 +117,18 @@ void parse_model(GltfDocument& document, const json& root) {
 
 }  // namespace
 
+void GltfDocument::store_file(const std::filesystem::path& path) {
+  pages.push_back(read_asset_file(path));
+  const PageBuffer& bytes = *pages.back();
+  storage.emplace_back(pages.back(), bytes.data(), bytes.size(), true);
+}
+
 GltfDocument read_document(const std::string& path) {
-  GltfDocument document{.file = path,
-                        .folder = std::filesystem::path(path).parent_path(),
-                        .model = {},
-                        .buffers = {},
-                        .storage = {}};
+  GltfDocument document;
+  document.file = path;
+  document.folder = std::filesystem::path(path).parent_path();
   try {
-    document.storage.push_back(read_asset_file(path));
+    document.store_file(path);
   } catch (const std::runtime_error& error) {
     document.fail("", error.what());
   }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "renderer/base/error.h"
-#include "renderer/base/shared_array.h"
+#include "renderer/base/memory.h"
 
 namespace parian {
 
@@ -22,11 +22,15 @@ struct GltfDocument {
   tinygltf::Model model;                            // buffers without data; images with name, uri, bufferView
   std::vector<std::span<const std::byte>> buffers;  // exactly byteLength each
   std::vector<SharedArray<std::byte>> storage;      // what the buffers are views of
+  std::vector<std::shared_ptr<PageBuffer>> pages;   // of `storage`, those read from files
 
   std::span<const std::byte> view(int buffer_view) const {
     const auto& v = model.bufferViews[std::size_t(buffer_view)];
     return buffers[std::size_t(v.buffer)].subspan(v.byteOffset, v.byteLength);
   }
+
+  /// Reads a file into `storage`. Throws std::runtime_error as read_asset_file() does.
+  void store_file(const std::filesystem::path& path);
 
   [[noreturn]] void fail(std::string_view where, std::string_view expected) const {
     throw InputError(file, where, expected);

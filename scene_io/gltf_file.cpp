@@ -1,5 +1,8 @@
 #include "scene_io/gltf_file.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -10,6 +13,7 @@
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
 
 namespace parian {
 namespace {
@@ -24,6 +28,8 @@ std::uint32_t read_u32(std::span<const std::byte> bytes, std::size_t offset) {
 constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
+constexpr std::size_t kReadAtOnce = std::size_t(4) << 20;
+
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 GltfChunks split_glb(std::span<const std::byte> bytes, const std::string& file) {
@@ -92,7 +98,7 @@ std::string decode_percent(std::string_view uri) {
 
 }  // namespace
 
-SharedArray<std::byte> read_asset_file(const std::filesystem::path& path) {
+std::shared_ptr<PageBuffer> read_asset_file(const std::filesystem::path& path) {
   std::error_code error;
   // Also keeps out pipes and devices, which have no end or no size.
   if (!std::filesystem::is_regular_file(path, error)) {
@@ -105,12 +111,20 @@ SharedArray<std::byte> read_asset_file(const std::filesystem::path& path) {
   }
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw std::runtime_error(fmt::format("expected to be able to read '{}'", path.string()));
-  auto bytes = std::make_shared_for_overwrite<std::byte[]>(size);
-  if (std::fread(bytes.get(), 1, size, stream.get()) != size) {
-    throw std::runtime_error(fmt::format("expected to read {} bytes of '{}'", size, path.string()));
-  }
-  const std::byte* const data = bytes.get();
-  return {std::move(bytes), data, size};
+  require_memory(size, fmt::format("reading '{}'", path.string()));
+  const auto bytes = std::make_shared<PageBuffer>(size);
+  const int descriptor = fileno(stream.get());
+  parallel_for((size + kReadAtOnce - 1) / kReadAtOnce, 1, [&](std::size_t i) {
+    const std::size_t end = std::min(size, (i + 1) * kReadAtOnce);
+    for (std::size_t at = i * kReadAtOnce; at < end;) {
+      const ssize_t got = pread(descriptor, bytes->data() + at, end - at, off_t(at));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0)
+        throw std::runtime_error(fmt::format("expected to read {} bytes of '{}'", size, path.string()));
+      at += std::size_t(got);
+    }
+  });
+  return bytes;
 }
 
 GltfChunks split_gltf(std::span<const std::byte> bytes, const std::string& file) {

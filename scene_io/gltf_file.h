@@ -7,12 +7,13 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/base/shared_array.h"
+#include "renderer/base/memory.h"
 
 namespace parian {
 
-/// The whole content of a regular file. Throws std::runtime_error whose text says what was expected.
-SharedArray<std::byte> read_asset_file(const std::filesystem::path& path);
+/// The whole content of a regular file, read on all threads. Throws std::runtime_error whose text says what
+/// was expected.
+std::shared_ptr<PageBuffer> read_asset_file(const std::filesystem::path& path);
 
 /// The JSON text of a .gltf or .glb, and the binary chunk of a .glb (empty where there is none): views of
 /// `bytes`.

@@ -51,8 +51,8 @@ Transform read_transform(const tinygltf::Node& source, const GltfDocument& docum
 }
 
 /// EXT_mesh_gpu_instancing. All attributes are optional, and as long as each other.
-std::vector<Transform> read_instances(const tinygltf::Value& extension, const GltfDocument& document,
-                                      AccessorReader& accessors, const std::string& where) {
+SharedArray<InstanceTransform> read_instances(const tinygltf::Value& extension, const GltfDocument& document,
+                                              AccessorReader& accessors, const std::string& where) {
   const tinygltf::Value attributes =
       extension.Has("attributes") ? extension.Get("attributes") : tinygltf::Value();
   std::optional<std::size_t> count;
@@ -72,18 +72,22 @@ std::vector<Transform> read_instances(const tinygltf::Value& extension, const Gl
   read("TRANSLATION", {}, translations);
   read("ROTATION", {.normalized_integers = true}, rotations);
   read("SCALE", {}, scales);
-  accessors.claim(count.value_or(0) * sizeof(Transform), where);
-  std::vector<Transform> instances(count.value_or(0));
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (!translations.empty()) instances[i].translation = translations[i];
-    if (!scales.empty()) instances[i].scale = scales[i];
-    if (rotations.empty()) continue;
-    const Vec4f& r = rotations[i];
-    const auto rotation = to_rotation(r.x, r.y, r.z, r.w);
-    if (!rotation) document.fail(fmt::format("{}/ROTATION", where), kExpectedRotation);
-    instances[i].rotation = *rotation;
-  }
-  return instances;
+  const std::size_t size = count.value_or(0);
+  accessors.claim(size * sizeof(InstanceTransform), where);
+  auto [array, data] = make_shared_array<InstanceTransform>(size);
+  for_chunks(size, [&, instances = data](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      instances[i] = {};
+      if (!translations.empty()) instances[i].translation = translations[i];
+      if (!scales.empty()) instances[i].scale = scales[i];
+      if (rotations.empty()) continue;
+      const Vec4f& r = rotations[i];
+      const auto rotation = to_rotation(r.x, r.y, r.z, r.w);
+      if (!rotation) document.fail(fmt::format("{}/ROTATION", where), kExpectedRotation);
+      instances[i].rotation = *rotation;
+    }
+  });
+  return array;
 }
 
 int punctual_count(const GltfDocument& document) {

@@ -4,22 +4,14 @@
 
 #include <algorithm>
 
+#include "renderer/base/memory.h"
+
 namespace parian {
 namespace {
-
-// Embree's medium-quality BVH with its own copy of triangles and vertices, measured: docs/measurements.md.
-constexpr double kAccelBytesPerTriangle = 75, kAccelBytesPerPlacement = 600, kAccelBytesPerSolid = 110;
 
 std::size_t bytes_of(const Primitive& p) {
   return p.positions.bytes() + p.normals.bytes() + p.tangents.bytes() + p.uvs[0].bytes() + p.uvs[1].bytes() +
          p.colors.bytes() + p.triangles.bytes();
-}
-
-std::string format_bytes(double bytes) {
-  const char* units[] = {"B", "kB", "MB", "GB", "TB"};
-  int unit = 0;
-  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1000;
-  return fmt::format("{:.{}f} {}", bytes, unit == 0 || bytes >= 100 ? 0 : 1, units[unit]);
 }
 
 const char* pixel_type_name(PixelType type) {
@@ -122,12 +114,8 @@ std::string describe(const Scene& scene, const World& world) {
       line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height,
                                 image.channels, pixel_type_name(image.type),
                                 format_bytes(double(image.pixels.bytes()))));
-  const double accel = kAccelBytesPerTriangle * double(s.triangles_stored) +
-                       kAccelBytesPerPlacement * double(s.placements) +
-                       kAccelBytesPerSolid * double(s.solids);
-  line("memory", fmt::format("{} geometry, {} images, about {} acceleration structure",
-                             format_bytes(double(s.geometry_bytes)), format_bytes(double(s.image_bytes)),
-                             format_bytes(accel)));
+  line("memory", fmt::format("{} geometry, {} images", format_bytes(double(s.geometry_bytes)),
+                             format_bytes(double(s.image_bytes))));
   return text;
 }
 

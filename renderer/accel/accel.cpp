@@ -5,17 +5,33 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "renderer/accel/mesh_uses.h"
 #include "renderer/accel/query.h"
 #include "renderer/accel/solid_geometry.h"
+#include "renderer/accel/triangle_pairs.h"
 #include "renderer/base/parallel.h"
 
 namespace parian {
 namespace {
 
 constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
+
+/// What Embree reads of a part while its geometry lives, and what takes a hit back to a triangle. The scene
+/// may be replaced by an edited one, so the arrays are held here.
+struct TracedMesh {
+  const Part* part = nullptr;  // of the world as it is now
+  SharedArray<Triangle> triangles;
+  SharedArray<Vec3f> positions;
+  std::optional<TrianglePairs> pairs;  // absent: Embree has the triangles themselves
+
+  TrianglePoint point(std::uint32_t primitive, float u, float v) const {
+    return pairs ? pairs->point(triangles, primitive, u, v) : TrianglePoint{primitive, u, v};
+  }
+};
 
 /// Calls keep(i) for each hit that Embree asks about, and turns it away where that is false.
 template <class Keep>
@@ -27,14 +43,14 @@ void filter_hits(const RTCFilterFunctionNArguments* a, const Keep& keep) {
 /// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that
 /// a triangle met twice by one ray decides alike.
 void alpha_filter(const RTCFilterFunctionNArguments* a) {
-  const Part& part = *static_cast<const Part*>(a->geometryUserPtr);
+  const TracedMesh& mesh = *static_cast<const TracedMesh*>(a->geometryUserPtr);
   const auto* query = static_cast<const Query*>(a->context);
   filter_hits(a, [&](unsigned i) {
-    const std::uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
-    const float coverage =
-        eval_coverage(*query->scene, part, triangle, RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
+    const TrianglePoint p =
+        mesh.point(RTCHitN_primID(a->hit, a->N, i), RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
+    const float coverage = eval_coverage(*query->scene, *mesh.part, p.triangle, p.u, p.v);
     const std::uint32_t top = RTCHitN_instID(a->hit, a->N, i, 0);
-    const std::uint32_t where = hash32(triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
+    const std::uint32_t where = hash32(p.triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
     return query->meets(RTCRayN_id(a->ray, a->N, i), where, coverage);
   });
 }
@@ -111,19 +127,20 @@ struct Accel::Impl {
 
   const Scene* scene;
   const World* world;
-  bool editable;
+  AccelSettings settings;
+  MeshUses uses;
   std::atomic<std::ptrdiff_t> bytes{0};
   BuildCounts builds;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
-  std::vector<RTCScene> mesh_scenes;  // by mesh; null where the mesh is not instanced
-  std::vector<TopEntry> entries;      // by geometry id of the top level
-  std::vector<SharedArray<Triangle>>
-      kept;  // indices, which Embree reads where they are; an edited scene may hold others
+  std::vector<RTCScene> mesh_scenes;    // by mesh; null where the mesh is not instanced
+  std::vector<TopEntry> entries;        // by geometry id of the top level
+  std::vector<TracedMesh> traced;       // by part
   std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
   std::vector<SolidGeometry> solid_geometries;
 
-  Impl(const Scene& s, const World& w, bool edit) : scene(&s), world(&w), editable(edit) {
+  Impl(const Scene& s, const World& w, const AccelSettings& a)
+      : scene(&s), world(&w), settings(a), uses(find_mesh_uses(s, w, a)), traced(w.parts.size()) {
     device = rtcNewDevice(fmt::format("threads={}", thread_count()).c_str());
     if (!device) throw std::runtime_error("Embree: no device");
     rtcSetDeviceMemoryMonitorFunction(device, memory_monitor, &bytes);
@@ -139,12 +156,24 @@ struct Accel::Impl {
     if (device) rtcReleaseDevice(device);
   }
 
+  RTCBuildQuality quality() const {
+    return settings.quality == BuildQuality::fast ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
+  }
+
+  static bool report_progress(void* user, double share) {
+    static_cast<const AccelSettings*>(user)->on_progress(share);
+    return true;
+  }
+
   /// Robust: without it rays slip through shared edges.
   RTCScene new_scene() const {
     RTCScene result = rtcNewScene(device);
     // What only media need, others do not pay for.
-    rtcSetSceneFlags(result, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (world->media.empty() ? 0 : kVisitable)));
-    rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneFlags(result, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (world->media.empty() ? 0 : kVisitable) |
+                                           (settings.compact ? RTC_SCENE_FLAG_COMPACT : 0)));
+    rtcSetSceneBuildQuality(result, quality());
+    if (settings.on_progress)
+      rtcSetSceneProgressMonitorFunction(result, report_progress, const_cast<AccelSettings*>(&settings));
     return result;
   }
 
@@ -162,7 +191,12 @@ struct Accel::Impl {
     const TopEntry& entry = entries[instanced ? instance : geometry];
     if (entry.placement == Hit::kSolid) [[unlikely]]
       return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, normal());
-    return {t, u, v, entry.placement, instanced ? geometry : entry.primitive, triangle, 0};
+    const std::uint32_t primitive = instanced ? geometry : entry.primitive;
+    if (!uses.paired || entry.placement == Hit::kAreaLightHit)
+      return {t, u, v, entry.placement, primitive, triangle, 0};
+    const TrianglePoint p =
+        traced[world->placements[entry.placement].first_part + primitive].point(triangle, u, v);
+    return {t, p.u, p.v, entry.placement, primitive, p.triangle, 0};
   }
 
   /// Keeps every hit that Embree shows, and lets it look on.
@@ -178,26 +212,42 @@ struct Accel::Impl {
     });
   }
 
-  RTCGeometry new_triangles(const Part& part, const Affine* to_world) {
-    const Primitive& primitive = *part.primitive;
-    kept.push_back(primitive.triangles);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               primitive.triangles.data(), 0, sizeof(Triangle), primitive.triangles.size());
-    fill_vertices(geometry, part, to_world);
-    if (part.alpha) {
-      rtcSetGeometryUserData(geometry, const_cast<void*>(static_cast<const void*>(&part)));
+  RTCGeometry new_mesh(std::uint32_t part, const Affine* to_world) {
+    TracedMesh& mesh = traced[part];
+    mesh.part = &world->parts[part];
+    mesh.triangles = mesh.part->primitive->triangles;
+    mesh.positions = mesh.part->primitive->positions;
+    if (uses.paired && !mesh.pairs) mesh.pairs = pair_triangles(mesh.triangles);  // once for all copies
+    RTCGeometry geometry =
+        rtcNewGeometry(device, mesh.pairs ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (mesh.pairs)
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                 mesh.pairs->quads.data(), 0, sizeof(Quad), mesh.pairs->quads.size());
+    else
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(),
+                                 0, sizeof(Triangle), mesh.triangles.size());
+    set_vertices(geometry, mesh.positions, to_world);
+    rtcSetGeometryUserData(geometry, &mesh);
+    if (mesh.part->alpha) {
       rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
       rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
     }
+    rtcSetGeometryBuildQuality(geometry, quality());
     rtcCommitGeometry(geometry);
     ++builds.meshes;
     return geometry;
   }
 
   /// Embree reads 16 bytes at the last vertex, so memory that was not laid out for it is copied.
-  void fill_vertices(RTCGeometry geometry, const Part& part, const Affine* to_world) {
-    const SharedArray<Vec3f>& positions = part.primitive->positions;
+  void set_vertices(RTCGeometry geometry, const SharedArray<Vec3f>& positions, const Affine* to_world) {
+    if (!copies_vertices(positions, to_world))
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                                 sizeof(Vec3f), positions.size());
+    else
+      fill_vertices(geometry, positions, to_world);
+  }
+
+  void fill_vertices(RTCGeometry geometry, const SharedArray<Vec3f>& positions, const Affine* to_world) {
     auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size()));
     check("allocating vertices");
@@ -210,14 +260,12 @@ struct Accel::Impl {
   }
 
   void build_meshes() {
-    std::vector<int> uses(world->mesh_count(*scene), 0);
-    for (const Placement& p : world->placements) ++uses[p.mesh];
-    mesh_scenes.assign(uses.size(), nullptr);
+    mesh_scenes.assign(uses.instanced.size(), nullptr);
     for (const Placement& p : world->placements) {
-      if (mesh_scenes[p.mesh] || (!editable && uses[p.mesh] == 1)) continue;
+      if (mesh_scenes[p.mesh] || !uses.instanced[p.mesh]) continue;
       RTCScene mesh = new_scene();
       for (std::uint32_t i = 0; i < p.part_count; ++i) {
-        RTCGeometry geometry = new_triangles(world->parts[p.first_part + i], nullptr);
+        RTCGeometry geometry = new_mesh(p.first_part + i, nullptr);
         rtcAttachGeometryByID(mesh, geometry, i);
         rtcReleaseGeometry(geometry);
       }
@@ -244,7 +292,7 @@ struct Accel::Impl {
         attach(instance, i, 0);
       } else {
         for (std::uint32_t k = 0; k < p.part_count; ++k)
-          attach(new_triangles(world->parts[p.first_part + k], p.identity ? nullptr : &p.to_world), i, k);
+          attach(new_mesh(p.first_part + k, p.identity ? nullptr : &p.to_world), i, k);
       }
     }
     if (!world->area_lights.empty()) {
@@ -298,7 +346,7 @@ struct Accel::Impl {
 };
 
 Accel::Accel(const Scene& scene, const World& world, const AccelSettings& settings)
-    : impl_(std::make_unique<Impl>(scene, world, settings.editable)) {}
+    : impl_(std::make_unique<Impl>(scene, world, settings)) {}
 
 Accel::~Accel() = default;
 
@@ -313,16 +361,9 @@ void Accel::rebind(const Scene& scene, const World& world) {
       impl_->set_area_lights(geometry);
     } else if (placement == Hit::kSolid) {
       impl_->solid_geometries[primitive].world = &world;
-    } else if (RTCScene mesh = impl_->mesh_scenes[world.placements[placement].mesh]) {
-      const Placement& p = world.placements[placement];
-      for (std::uint32_t i = 0; i < p.part_count; ++i)
-        rtcSetGeometryUserData(rtcGetGeometry(mesh, i),
-                               const_cast<void*>(static_cast<const void*>(&world.parts[p.first_part + i])));
-    } else {
-      rtcSetGeometryUserData(geometry,
-                             const_cast<void*>(static_cast<const void*>(&world.part(placement, primitive))));
     }
   }
+  for (std::size_t i = 0; i < impl_->traced.size(); ++i) impl_->traced[i].part = &world.parts[i];
 }
 
 void Accel::update_transforms(const Scene& scene, const World& world) {
@@ -344,7 +385,7 @@ void Accel::update_transforms(const Scene& scene, const World& world) {
     if (impl_->mesh_scenes[p.mesh]) {
       Impl::set_instance_transform(geometry, p.to_world);
     } else {
-      impl_->fill_vertices(geometry, world.part(placement, primitive), &p.to_world);
+      impl_->set_vertices(geometry, world.part(placement, primitive).primitive->positions, &p.to_world);
       rtcCommitGeometry(geometry);
       ++impl_->builds.meshes;
     }
@@ -409,7 +450,12 @@ std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit
   return crossings.count;
 }
 
-std::size_t Accel::bytes() const { return std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load())); }
+std::size_t Accel::bytes() const {
+  std::size_t bytes = std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load()));
+  for (const TracedMesh& mesh : impl_->traced)
+    if (mesh.pairs) bytes += mesh.pairs->bytes();
+  return bytes;
+}
 
 BuildCounts Accel::builds() const { return impl_->builds; }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -14,9 +15,29 @@
 
 namespace parian {
 
+/// How well the BVH is built, against the time and memory that takes: by Morton codes; by the surface area
+/// heuristic; by that, with meshes that are drawn a few times copied into world space instead of instanced.
+/// The same picture. (Embree's own high quality does nothing in robust mode: docs/large.md.)
+enum class BuildQuality : std::uint8_t { fast, balanced, best };
+
 struct AccelSettings {
   bool editable = false;  // instance every mesh: moving one then rebuilds only the top level
+  BuildQuality quality = BuildQuality::balanced;
+  bool compact = false;  // half of the memory, for rays that take longer
+  // Told the share done, 0 to 1, of the mesh or the scene that is being built, from any thread; may be empty.
+  std::function<void(double)> on_progress{};
 };
+
+/// Bytes, at the end and while the BVH is built.
+struct AccelMemory {
+  std::size_t held = 0, peak = 0;
+};
+
+/// Triangles that BuildQuality::best copies, each as often as it is drawn.
+double copied_triangles(const Scene& scene, const World& world);
+
+/// What an Accel of the world will take, beside the scene: within some percent, found in some milliseconds.
+AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelSettings& settings);
 
 /// What the builds of an Accel's life were: an edit must not cause more than it needs.
 struct BuildCounts {
@@ -86,7 +107,7 @@ class Accel {
   std::size_t crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
                         const Body* body = nullptr) const;
 
-  std::size_t bytes() const;  // what Embree holds now
+  std::size_t bytes() const;  // what it holds now
   BuildCounts builds() const;
 
  private:

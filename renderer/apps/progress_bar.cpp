@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace parian {
@@ -11,6 +12,40 @@ namespace {
 constexpr double kBarInterval = 0.1, kLineInterval = 10;  // seconds
 
 }  // namespace
+
+PhaseLine::PhaseLine(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+
+double PhaseLine::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void PhaseLine::operator()(const char* phase) {
+  const std::lock_guard lock(mutex_);
+  phase_ = phase;
+  next_ = 0;
+  if (quiet_) return;
+  if (terminal_) {
+    fmt::print(stderr, "\r{}\033[K", phase);
+    shown_ = true;
+  } else if (elapsed() > kLineInterval) {
+    fmt::print(stderr, "{}, {} elapsed\n", phase, format_duration(elapsed()));
+  }
+}
+
+void PhaseLine::show_share(double done) {
+  if (quiet_ || !terminal_) return;
+  const std::lock_guard lock(mutex_);
+  if (elapsed() < next_) return;
+  next_ = elapsed() + kBarInterval;
+  fmt::print(stderr, "\r{} {:.0f}%\033[K", phase_, 100 * std::clamp(done, 0.0, 1.0));
+}
+
+void PhaseLine::finish() {
+  const std::lock_guard lock(mutex_);
+  if (shown_) fmt::print(stderr, "\r\033[K");
+  shown_ = false;
+}
 
 ProgressBar::ProgressBar(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO)), next_(terminal_ ? 0 : kLineInterval) {}

@@ -10,10 +10,13 @@
 #include "integrators/integrators.h"
 #include "renderer/apps/checkpoint.h"
 #include "renderer/apps/commands.h"
+#include "renderer/apps/picture_size.h"
 #include "renderer/apps/progress_bar.h"
+#include "renderer/apps/sizes.h"
 #include "renderer/apps/stats.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/memory.h"
 #include "renderer/base/parallel.h"
 #include "renderer/color/display.h"
 #include "scene_io/gltf.h"
@@ -26,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 struct RenderOptions {
   std::vector<std::string> scenes;
-  std::string output, display, view, size, camera, environment, stats, checkpoint, resume;
+  std::string output, display, view, size, camera, environment, stats, checkpoint, resume, memory;
   std::string integrator = "path";
   std::optional<std::string> tiles;
   std::vector<std::string> layers;
@@ -62,6 +65,8 @@ const std::map<std::string, SamplerKind> kSamplers{{"sobol", SamplerKind::sobol}
                                                    {"independent", SamplerKind::independent}};
 const std::map<std::string, FilterKind> kFilters{{"blackman-harris", FilterKind::blackman_harris},
                                                  {"box", FilterKind::box}};
+const std::map<std::string, BuildQuality> kBuildQualities{
+    {"fast", BuildQuality::fast}, {"balanced", BuildQuality::balanced}, {"best", BuildQuality::best}};
 const std::map<std::string, Partitioner> kPartitioners{{"auto", Partitioner::automatic},
                                                        {"static", Partitioner::fixed},
                                                        {"simple", Partitioner::simple},
@@ -78,16 +83,6 @@ void add_choice(CLI::App& app, const std::string& name, T& value, const std::map
          fmt::format("{}: {}", help, fmt::join(names, ", ")))
       ->check(CLI::IsMember(names).description(""))
       ->type_name("NAME");
-}
-
-/// WIDTHxHEIGHT, each from 1 to 65536.
-Vec2i parse_size(const std::string& text) {
-  Vec2i size;
-  char rest;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
-      size.x > 65536 || size.y > 65536)
-    throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT, each from 1 to 65536", text));
-  return size;
 }
 
 /// rows, columns, or the side of square tiles from 1 to 65536 pixels.
@@ -112,14 +107,6 @@ int find_camera(const Scene& scene, const std::vector<CameraPlacement>& cameras,
     names.push_back(fmt::format("{} \"{}\"", i, node.empty() ? camera : node));
   }
   throw UsageError(fmt::format("--camera {}: no such camera; there are: {}", wanted, fmt::join(names, ", ")));
-}
-
-/// 960 pixels wide in the camera's own shape, 16:9 where it has none.
-Vec2i default_size(const Camera& camera) {
-  const float aspect = camera.projection == Projection::orthographic ? camera.xmag / camera.ymag
-                       : camera.aspect > 0                           ? camera.aspect
-                                                                     : 16.0f / 9;
-  return {960, std::clamp(int(std::lround(960 / aspect)), 1, 65536)};
 }
 
 const std::vector<std::string> kLayerNames{"variance", "samples", "albedo", "normal",
@@ -178,8 +165,9 @@ void check_outputs(const RenderOptions& o) {
 }
 
 /// The scene to render; `notes` holds what it lacks and what was skipped.
-std::shared_ptr<const Scene> load(const RenderOptions& o, std::vector<std::string>& notes) {
-  auto scene = std::make_shared<Scene>(load_scene(o.scenes, {}, notes));
+std::shared_ptr<const Scene> load(const RenderOptions& o, PhaseLine& phases,
+                                  std::vector<std::string>& notes) {
+  auto scene = std::make_shared<Scene>(load_scene(o.scenes, {.on_phase = std::ref(phases)}, notes));
   if (!o.environment.empty()) {
     scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
     scene->images.push_back(read_image(o.environment));
@@ -245,13 +233,16 @@ int render(RenderOptions o) {
   o.settings.spp = o.spp > 0 ? o.spp : other_end ? kNoLimit : 64;
   if (o.tiles) o.settings.tiling = parse_tiles(*o.tiles);
   if (o.threads > 0) set_thread_count(o.threads);
+  if (!o.memory.empty()) set_memory_limit(parse_bytes("--memory", o.memory));
+  memory_limit();  // what is there now, before anything is loaded
   o.settings.layers = film_layers(o.layers);
   std::unique_ptr<Integrator> integrator = make_integrator(o.integrator, o.integrator_settings);
 
   PhaseSeconds seconds;
   Clock::time_point clock = Clock::now();
   std::vector<std::string> notes;
-  const std::shared_ptr<const Scene> scene = load(o, notes);
+  PhaseLine phases(o.quiet);
+  const std::shared_ptr<const Scene> scene = load(o, phases, notes);
   const std::vector<CameraPlacement> cameras = place_cameras(*scene);
   o.settings.camera = find_camera(*scene, cameras, o.camera);
   if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
@@ -260,7 +251,10 @@ int render(RenderOptions o) {
   const std::string key = o.checkpoint.empty() && o.resume.empty() ? "" : checkpoint_key(o);
   seconds.load = lap(clock);
 
+  phases("building");
+  o.settings.accel.on_progress = [&](double done) { phases.show_share(done); };
   Session session(scene, o.settings, std::move(integrator));
+  phases.finish();
   if (!o.resume.empty()) read_checkpoint(o.resume, key, session.film());
   seconds.build = lap(clock);
   // Only now: an error above is the first line of all.
@@ -269,6 +263,7 @@ int render(RenderOptions o) {
 
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  seconds.first_ray = process_seconds();
   const bool stopped = run(session, o, key);
   seconds.render = lap(clock);
 
@@ -343,6 +338,14 @@ Command add_render_command(CLI::App& app) {
                fmt::format("Layers of the EXR [variance]: {}, none", fmt::join(kLayerNames, ", ")))
       ->delimiter(',')
       ->type_name("LIST");
+  c.add_option_function<std::string>(
+       "--build", [&o](const std::string& name) { o.settings.build = kBuildQualities.at(name); },
+       "Acceleration structure: soon there, or soon traced; by default what pays: fast, balanced, best")
+      ->check(CLI::IsMember(std::vector<std::string>{"fast", "balanced", "best"}).description(""))
+      ->type_name("NAME");
+  c.add_option("--memory", o.memory,
+               "Memory to stay below, as 8G or 500M; what the machine has free by default")
+      ->type_name("BYTES");
   c.add_option("--threads", o.threads, "Threads; all cores by default")
       ->check(CLI::Range(1, 4096).description(""));
   c.add_option("--tiles", o.tiles,

@@ -10,6 +10,9 @@
 
 namespace parian {
 
+/// Bytes behind the end of an array that is padded().
+inline constexpr std::size_t kArrayPadding = 16;
+
 template <class T>
 class SharedArray {
  public:
@@ -21,13 +24,16 @@ class SharedArray {
     owner_ = std::move(owner);
   }
   /// A view of memory that `owner` keeps alive.
-  SharedArray(std::shared_ptr<const void> owner, const T* data, std::size_t size)
-      : owner_(std::move(owner)), data_(data), size_(size) {}
+  SharedArray(std::shared_ptr<const void> owner, const T* data, std::size_t size, bool padded = false)
+      : owner_(std::move(owner)), data_(data), size_(size), padded_(padded) {}
 
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }
   std::size_t bytes() const { return size_ * sizeof(T); }
   bool empty() const { return size_ == 0; }
+  /// Whether kArrayPadding bytes behind the last element may be read too, which vector loads of it do.
+  bool padded() const { return padded_; }
+  const std::shared_ptr<const void>& owner() const { return owner_; }
   const T& operator[](std::size_t i) const { return data_[i]; }
   const T* begin() const { return data_; }
   const T* end() const { return data_ + size_; }
@@ -44,6 +50,15 @@ class SharedArray {
   std::shared_ptr<const void> owner_;
   const T* data_ = nullptr;
   std::size_t size_ = 0;
+  bool padded_ = false;
 };
+
+/// A padded array of its own, not initialised, and where to write it.
+template <class T>
+std::pair<SharedArray<T>, T*> make_shared_array(std::size_t size) {
+  auto owner = std::make_shared_for_overwrite<T[]>(size + (kArrayPadding + sizeof(T) - 1) / sizeof(T));
+  T* const data = owner.get();
+  return {SharedArray<T>(std::move(owner), data, size, true), data};
+}
 
 }  // namespace parian

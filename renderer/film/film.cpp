@@ -36,6 +36,15 @@ Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(he
   clear();
 }
 
+std::size_t Film::bytes(int width, int height, FilmLayers layers) {
+  // A picture is resolved, its layers are selected, and it is encoded.
+  const std::size_t channels =
+      3 + (layers.variance ? 3 : 0) + (layers.sample_count ? 1 : 0) + (layers.features ? 10 : 0);
+  const std::size_t pixel =
+      sizeof(PixelSums) + (layers.features ? sizeof(FeatureSums) : 0) + 3 * sizeof(float) * channels;
+  return pixel * std::size_t(width) * std::size_t(height);
+}
+
 void Film::clear() {
   const std::lock_guard lock(mutex_);
   pixels_.assign(std::size_t(width_) * height_, {});

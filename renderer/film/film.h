@@ -74,6 +74,8 @@ struct FilmTile {
 class Film {
  public:
   Film(int width, int height, FilmLayers layers);
+  /// What a film takes, with the pictures that are made of it.
+  static std::size_t bytes(int width, int height, FilmLayers layers);
 
   int width() const { return width_; }
   int height() const { return height_; }

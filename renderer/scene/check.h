@@ -62,9 +62,10 @@ class Check {
 
   /// Unit but for what rounding to float leaves.
   void rotation(const Quatf& q, const std::string& where) const {
-    if (!(std::abs(q.r * q.r + q.v.dot(q.v) - 1) <= kUnitTolerance))
-      fail(where, "expected a unit quaternion");
+    if (!is_rotation(q)) fail(where, "expected a unit quaternion");
   }
+
+  static bool is_rotation(const Quatf& q) { return std::abs(q.r * q.r + q.v.dot(q.v) - 1) <= kUnitTolerance; }
 
   static bool is_unit(const Vec3f& v) { return std::abs(v.dot(v) - 1) <= kUnitTolerance; }
 

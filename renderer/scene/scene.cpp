@@ -17,8 +17,7 @@ void extend(std::vector<T>& target, const std::vector<T>& source) {
 
 }  // namespace
 
-Mat4d Transform::to_matrix() const {
-  if (matrix) return Mat4d(*matrix);
+Mat4d InstanceTransform::to_matrix() const {
   // The rows are the images of the axes: those of the rotation matrix of a unit quaternion, times the scale.
   const double length = std::sqrt(double(rotation.r) * rotation.r + Vec3d(rotation.v).dot(Vec3d(rotation.v)));
   const double w = rotation.r / length;
@@ -43,6 +42,10 @@ Mat4d Transform::to_matrix() const {
           t.y,
           t.z,
           1};
+}
+
+Mat4d Transform::to_matrix() const {
+  return matrix ? Mat4d(*matrix) : InstanceTransform{translation, rotation, scale}.to_matrix();
 }
 
 void append(Scene& scene, const Scene& other) {

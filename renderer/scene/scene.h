@@ -291,13 +291,22 @@ struct Transform {
   bool operator==(const Transform&) const = default;
 };
 
+/// Where an instance is, of millions: a transform without matrix.
+struct InstanceTransform {
+  Vec3f translation{0, 0, 0};
+  Quatf rotation{1, 0, 0, 0};
+  Vec3f scale{1, 1, 1};
+  Mat4d to_matrix() const;
+  bool operator==(const InstanceTransform&) const = default;
+};
+
 struct Node {
   std::string name;
   Transform transform;
   std::vector<int> children;
   int mesh = kNone, camera = kNone, light = kNone;
   int shape = kNone, shape_material = kNone;  // PARIAN_shape: both, or neither
-  std::vector<Transform>
+  SharedArray<InstanceTransform>
       instances;  // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
   bool operator==(const Node&) const = default;
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "renderer/base/parallel.h"
 #include "renderer/scene/check.h"
 
 namespace parian {
@@ -9,22 +10,37 @@ bool all_finite(const Imath::M44f& m) {
   return std::all_of(&m[0][0], &m[0][0] + 16, [](float x) { return std::isfinite(x); });
 }
 
-void check_transform(const Transform& t, const std::string& where, const Check& check) {
+void check_transform(const InstanceTransform& t, const std::string& where, const Check& check) {
   if (!is_finite(t.translation)) check.fail(where + "/translation", "expected finite numbers");
   check.rotation(t.rotation, where + "/rotation");
   if (!is_finite(t.scale)) check.fail(where + "/scale", "expected finite numbers");
-  if (!t.matrix) return;
-  const Imath::M44f& m = *t.matrix;
-  if (!all_finite(m)) check.fail(where + "/matrix", "expected finite numbers");
+}
+
+void check_matrix(const Imath::M44f& m, const std::string& where, const Check& check) {
+  if (!all_finite(m)) check.fail(where, "expected finite numbers");
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
-    check.fail(where + "/matrix", "expected an affine matrix");
+    check.fail(where, "expected an affine matrix");
+}
+
+// Millions, whose places are not written out for nothing.
+void check_instances(const SharedArray<InstanceTransform>& instances, const std::string& where,
+                     const Check& check) {
+  constexpr std::size_t kChunk = 1 << 12;
+  parallel_for((instances.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
+    const std::size_t end = std::min(instances.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      const InstanceTransform& t = instances[i];
+      if (!Check::is_rotation(t.rotation) || !is_finite(t.translation) || !is_finite(t.scale))
+        check_transform(t, fmt::format("{}/{}", where, i), check);
+    }
+  });
 }
 
 void check_node(const Scene& scene, const Node& node, const std::string& where, const Check& check) {
-  check_transform(node.transform, where + "/transform", check);
-  for (std::size_t i = 0; i < node.instances.size(); ++i) {
-    check_transform(node.instances[i], fmt::format("{}/instances/{}", where, i), check);
-  }
+  const Transform& t = node.transform;
+  check_transform({t.translation, t.rotation, t.scale}, where + "/transform", check);
+  if (t.matrix) check_matrix(*t.matrix, where + "/transform/matrix", check);
+  check_instances(node.instances, where + "/instances", check);
   check.optional_index(node.mesh, scene.meshes.size(), where + "/mesh");
   check.optional_index(node.shape, scene.shapes.size(), where + "/shape");
   if (node.shape != kNone)

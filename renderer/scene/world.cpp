@@ -180,7 +180,7 @@ class WorldBuilder {
     if (node.shape != kNone && node.instances.size() > world_.solids.capacity())
       world_.solids.reserve(world_.solids.size() + node.instances.size());
     if (node.instances.empty()) add_geometry(node, index, to_world);
-    for (const Transform& instance : node.instances)
+    for (const InstanceTransform& instance : node.instances)
       add_geometry(node, index, instance.to_matrix() * to_world);
     if (node.light != kNone) add_light(scene_.lights[node.light], index, to_affine(to_world));
   }
@@ -311,6 +311,7 @@ std::vector<CameraPlacement> place_cameras(const Scene& scene) {
 
 std::vector<std::string> add_missing_camera_and_light(Scene& scene) {
   std::vector<std::string> notes;
+  if (!place_cameras(scene).empty() && !is_black(scene.environment.radiance)) return notes;
   const World world = make_world(scene);
   if (world.cameras.empty()) {
     add_framing_camera(scene, world.bounds);

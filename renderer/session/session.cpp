@@ -8,6 +8,7 @@
 
 #include "renderer/base/parallel.h"
 #include "renderer/session/adaptive.h"
+#include "renderer/session/build_plan.h"
 #include "renderer/session/camera_rays.h"
 #include "renderer/session/media.h"
 
@@ -51,18 +52,23 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
       settings_(settings),
       integrator_(std::move(integrator)),
       filter_(settings.filter),
-      film_(settings.width, settings.height, settings.layers),
       tiles_(make_tiles(settings.width, settings.height, settings.tiling, thread_count())),
       tile_loop_(settings.partitioner) {
   const Clock::time_point start = Clock::now();
   world_ = std::make_unique<World>(make_world(*scene_));
   integrator_->prepare(*world_);
+  const BuildPlan plan = plan_build(*scene_, *world_, settings_);
+  settings_.accel = plan.accel;
   accel_ = std::make_unique<Accel>(*scene_, *world_, settings_.accel);
   build_lights();
+  film_ = std::make_unique<Film>(settings.width, settings.height, settings.layers);  // last: it needs no peak
   view_ = make_camera_view(*scene_, world_->cameras.at(settings_.camera), settings_.width, settings_.height);
   camera_media_ = find_media(*world_, *accel_, view_.to_world.origin);
   for (const Part& part : world_->parts) stats_.triangles += part.primitive->triangles.size();
   stats_.solids = world_->solids.size();
+  stats_.predicted_peak = plan.peak;
+  stats_.quality = plan.accel.quality;
+  stats_.compact = plan.accel.compact;
   stats_.build_seconds = seconds_since(start);
 }
 
@@ -79,7 +85,7 @@ void Session::start() {
   running_ = true;
   failure_ = nullptr;
   started_ = Clock::now();
-  finished_samples_ = film_.min_samples();
+  finished_samples_ = film_->min_samples();
   done_ = 0;
   thread_ = std::thread([this] {
     const double cpu = process_cpu_seconds();
@@ -128,33 +134,33 @@ bool Session::out_of_time() const {
 
 void Session::render() {
   // A pass that was interrupted is ended first: the next depends on its result.
-  for (bool more = film_.is_behind_plan() || plan_pass(); more; more = plan_pass()) {
+  for (bool more = film_->is_behind_plan() || plan_pass(); more; more = plan_pass()) {
     render_pass();
     if (cancel_ || out_of_time()) return;
-    finished_samples_ = *std::ranges::min_element(film_.plan());
+    finished_samples_ = *std::ranges::min_element(film_->plan());
   }
 }
 
 /// Plans the next pass; false where the picture is finished.
 bool Session::plan_pass() {
   const std::uint32_t done = finished_samples_;
-  const std::vector<std::uint32_t>& planned = film_.plan();  // what all blocks have now
+  const std::vector<std::uint32_t>& planned = film_->plan();  // what all blocks have now
   const double samples = std::accumulate(planned.begin(), planned.end(), 0.0);
   done_ = std::min(1.0, samples / double(planned.size()) / settings_.spp);
   if (settings_.noise > 0 && done >= kMinAdaptiveSamples) {
-    const BlockNoise noise = film_.block_noise();
+    const BlockNoise noise = film_->block_noise();
     // The error falls with the square root of the work.
     done_ = std::clamp(std::pow(settings_.noise / picture_noise(noise).bound, 2), double(done_), 1.0);
     std::vector<std::uint32_t> plan = plan_adaptive_pass(noise, settings_.noise, settings_.spp);
     if (plan.empty()) return false;
-    film_.set_plan(std::move(plan));
+    film_->set_plan(std::move(plan));
     return true;
   }
   if (done >= settings_.spp) return false;
   // Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long
   // enough that their ends, where threads wait for each other, do not count.
   const std::uint32_t step = std::min(std::clamp(done, 1u, 16u), settings_.spp - done);
-  film_.set_plan(std::vector(film_.plan().size(), done + step));
+  film_->set_plan(std::vector(film_->plan().size(), done + step));
   return true;
 }
 
@@ -164,19 +170,19 @@ void Session::render_pass() {
 
 void Session::render_tile(const Tile& area) {
   if (out_of_time()) return;
-  FilmTile tile = film_.checkout(area);
+  FilmTile tile = film_->checkout(area);
   RayCounts counts;
   auto rays = tile.rays.begin();
   for (int y = area.y0; y < area.y1; y += kBlock)
     for (int x = area.x0; x < area.x1; x += kBlock, ++rays) {
-      const std::size_t block = std::size_t(y / kBlock) * film_.block_columns() + x / kBlock;
+      const std::size_t block = std::size_t(y / kBlock) * film_->block_columns() + x / kBlock;
       const std::uint64_t before = counts.total();
       render_block(tile, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)},
-                   film_.plan()[block], counts);
+                   film_->plan()[block], counts);
       *rays += counts.total() - before;
       if (cancel_.load(std::memory_order_relaxed)) return;  // the tile is given up
     }
-  film_.merge(tile);
+  film_->merge(tile);
   const std::lock_guard lock(stats_mutex_);
   stats_.rays += counts;
 }
@@ -232,7 +238,7 @@ void Session::update(std::shared_ptr<const Scene> scene, unsigned changed) {
   // A camera moves nothing that rays meet: the scene traced so far stays.
   if (changed & ~unsigned(kChangedCamera)) retrace(std::move(scene), changed);
   camera_media_ = find_media(*world_, *accel_, view_.to_world.origin);
-  film_.clear();
+  film_->clear();
   finished_samples_ = 0;
   if (was_running) start();
 }

@@ -31,7 +31,8 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
-  AccelSettings accel;
+  AccelSettings accel;                // but for the quality, which is
+  std::optional<BuildQuality> build;  // absent: what pays
   LightChoice light_choice = LightChoice::tree;
   Tiling tiling;
   Partitioner partitioner = Partitioner::simple;
@@ -56,6 +57,9 @@ struct Progress {
 struct SessionStats {
   double build_seconds = 0, render_seconds = 0, render_cpu_seconds = 0;
   RayCounts rays;
+  std::size_t predicted_peak = 0;  // of the process's memory, bytes, before anything was built
+  BuildQuality quality = BuildQuality::balanced;
+  bool compact = false;
   std::size_t accel_bytes = 0, triangles = 0, solids = 0;  // triangles as stored, each mesh once
   BuildCounts builds;
   int light_builds = 0;
@@ -63,7 +67,8 @@ struct SessionStats {
 
 class Session {
  public:
-  /// Builds everything for a valid scene that has the camera asked for.
+  /// Builds everything for a valid scene that has the camera asked for. Throws std::runtime_error where that
+  /// does not fit into memory.
   Session(std::shared_ptr<const Scene> scene, const RenderSettings& settings,
           std::unique_ptr<Integrator> integrator);
   ~Session();  // cancels
@@ -78,9 +83,9 @@ class Session {
 
   Progress progress() const;
   /// The picture so far; rendering goes on.
-  Picture snapshot() const { return film_.resolve(); }
-  Film& film() { return film_; }
-  const Film& film() const { return film_; }
+  Picture snapshot() const { return film_->resolve(); }
+  Film& film() { return *film_; }
+  const Film& film() const { return *film_; }
   SessionStats stats() const;
   const World& world() const { return *world_; }
 
@@ -107,7 +112,7 @@ class Session {
   PixelFilter filter_;
   CameraView view_;
   MediumStack camera_media_;
-  Film film_;
+  std::unique_ptr<Film> film_;
   std::vector<Tile> tiles_;
   ParallelLoop tile_loop_;
 

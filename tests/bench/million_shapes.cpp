@@ -71,8 +71,9 @@ Scene sphere_scene(const std::vector<Vec3f>& centers, float radius) {
   scene.materials.emplace_back();
   Node node;
   node.shape = node.shape_material = 0;
-  node.instances.reserve(centers.size());  // what a growing array frees would hide what the build takes
-  for (const Vec3f& center : centers) node.instances.push_back(translate(center));
+  std::vector<InstanceTransform> places(centers.size());
+  for (std::size_t i = 0; i < centers.size(); ++i) places[i].translation = centers[i];
+  node.instances = std::move(places);
   add_root(scene, std::move(node));
   return scene;
 }

@@ -180,6 +180,13 @@ inline Transform scale(const Vec3f& by) {
   return t;
 }
 
+/// Instances at these places.
+inline SharedArray<InstanceTransform> instances(const std::vector<Transform>& places) {
+  std::vector<InstanceTransform> result;
+  for (const Transform& t : places) result.push_back({t.translation, t.rotation, t.scale});
+  return result;
+}
+
 /// Turns -z, where cameras and lights look, to the unit vector `direction`, and keeps y up where it can.
 inline Transform look_along(const Vec3f& origin, const Vec3f& direction) {
   const Vec3f up = std::abs(direction.y) > 0.99f ? Vec3f(0, 0, 1) : Vec3f(0, 1, 0);

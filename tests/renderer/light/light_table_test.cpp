@@ -129,8 +129,9 @@ Scene make_full_scene() {
   scene.meshes.push_back({"", {floor, box, tip}});
   Node node;
   node.mesh = 0;
-  node.instances = {translate({2, 0.5f, 0}), translate({-1, 1, -2})};
-  node.instances[1].scale = {-1, 2, 0.5f};
+  Transform mirrored = translate({-1, 1, -2});
+  mirrored.scale = {-1, 2, 0.5f};
+  node.instances = instances({translate({2, 0.5f, 0}), mirrored});
   add_root(scene, node);
   add_mesh(scene, make_quad({0, -2, 0}, {3, 0, 0}, {0, 0, -3}), dark);
   add_light(scene, rectangle(1, 2, 2), look_along({0, 1, 2}, {0, -0.6f, -0.8f}));

@@ -116,7 +116,7 @@ TEST(ShapeWorld, PlanesFaceUpWithUAlongXAndVAlongZ) {
 TEST(ShapeWorld, InstancesDrawAShapeOnceEach) {
   Scene scene;
   add_shape(scene, make_sphere(1), add_material(scene, Material{}), translate({0, 1, 0}));
-  scene.nodes[0].instances = {translate({1, 0, 0}), translate({2, 0, 0}), scale({0, 1, 1})};
+  scene.nodes[0].instances = instances({translate({1, 0, 0}), translate({2, 0, 0}), scale({0, 1, 1})});
   const World world = make_world(scene);
   ASSERT_EQ(world.solids.size(), 2u);  // the third is hidden: a scale of zero
   EXPECT_EQ(world.solids[1].to_world.origin, Vec3f(2, 1, 0));

@@ -70,7 +70,7 @@ TEST(World, NestsTransformsParentsLast) {
 TEST(World, PlacesEveryInstance) {
   Scene scene = make_scene();
   Node node = mesh_node(turn({0, 0, 1}, kPi / 2));
-  node.instances = {translate({5, 0, 0}), scale({2, 2, 2}), {}};
+  node.instances = instances({translate({5, 0, 0}), scale({2, 2, 2}), {}});
   add_root(scene, node);
   add_root(scene, mesh_node());
   const World world = make_world(scene);
@@ -97,7 +97,7 @@ TEST(World, HidesMeshesOfZeroScale) {
   add_root(scene, mesh_node(scale({1, 0, 1})));
   add_root(scene, mesh_node(scale({0, 0, 0})));
   Node node = mesh_node();
-  node.instances = {scale({0, 1, 1}), translate({3, 0, 0})};
+  node.instances = instances({scale({0, 1, 1}), translate({3, 0, 0})});
   add_root(scene, node);
   add_root(scene, mesh_node(scale({1e-6f, 1e-6f, 1e-6f})));
   const World world = make_world(scene);

@@ -1,0 +1,121 @@
+/// find_mesh_uses() and estimate_memory().
+#include <algorithm>
+
+#include "renderer/accel/mesh_uses.h"
+#include "renderer/accel/triangle_pairs.h"
+
+namespace parian {
+namespace {
+
+// Fewer triangles than this share of them with a partner, and quads take more memory than they save.
+constexpr double kLeastPaired = 0.6;
+
+// Bytes for each primitive, measured (docs/measurements.md): what Embree holds, and what it takes beside that
+// while it builds.
+struct Cost {
+  double held, building;
+};
+
+Cost cost_of(bool quads, const AccelSettings& settings) {
+  const bool fast = settings.quality == BuildQuality::fast;
+  if (quads && fast) return settings.compact ? Cost{107, 8} : Cost{114, 6};
+  if (quads) return settings.compact ? Cost{41, 33} : Cost{84, 25};
+  if (fast) return settings.compact ? Cost{50, 10} : Cost{93, 9};
+  return settings.compact ? Cost{37, 3} : Cost{65, 34};
+}
+
+constexpr double kPairBytes = sizeof(Quad) + sizeof(std::uint32_t) + 1;
+// Above this many triangles the copies of a mesh cost more than its instances.
+constexpr double kMostCopied = 4e6;
+constexpr double kInstanceBytes = 600, kSolidBytes = 110;
+
+/// Of one placement: its triangles, or the quads that they are traced as.
+double count_primitives(const World& world, const Placement& p, bool paired) {
+  double count = 0;
+  for (std::uint32_t i = p.first_part; i < p.first_part + p.part_count; ++i) {
+    const SharedArray<Triangle>& triangles = world.parts[i].primitive->triangles;
+    count += paired ? estimate_quads(triangles) : double(triangles.size());
+  }
+  return count;
+}
+
+/// How a mesh is drawn.
+struct Drawn {
+  const Placement* first = nullptr;
+  std::size_t times = 0;
+  double triangles = 0;
+};
+
+std::vector<Drawn> count_meshes(const Scene& scene, const World& world) {
+  std::vector<Drawn> meshes(world.mesh_count(scene));
+  for (const Placement& p : world.placements) {
+    Drawn& mesh = meshes[p.mesh];
+    if (mesh.times++ > 0) continue;
+    mesh.first = &p;
+    mesh.triangles = count_primitives(world, p, false);
+  }
+  return meshes;
+}
+
+bool is_copied(const Drawn& mesh) { return double(mesh.times) * mesh.triangles <= kMostCopied; }
+
+}  // namespace
+
+MeshUses find_mesh_uses(const Scene& scene, const World& world, const AccelSettings& settings) {
+  const std::vector<Drawn> meshes = count_meshes(scene, world);
+  const bool copies = settings.quality == BuildQuality::best && !settings.editable;
+  MeshUses uses;
+  for (const Drawn& mesh : meshes)
+    uses.instanced.push_back(mesh.times > 1 ? !(copies && is_copied(mesh))
+                                            : settings.editable && mesh.times > 0);
+  double triangles = 0, quads = 0;
+  for (const Placement& p : world.placements) {
+    if (meshes[p.mesh].first != &p) continue;
+    for (std::uint32_t i = p.first_part; i < p.first_part + p.part_count; ++i) {
+      triangles += double(world.parts[i].primitive->triangles.size());
+      quads += estimate_quads(world.parts[i].primitive->triangles);
+    }
+  }
+  uses.paired = 2 * (triangles - quads) >= kLeastPaired * triangles;
+  return uses;
+}
+
+double copied_triangles(const Scene& scene, const World& world) {
+  double copied = 0;
+  for (const Drawn& mesh : count_meshes(scene, world))
+    if (mesh.times > 1 && is_copied(mesh)) copied += double(mesh.times) * mesh.triangles;
+  return copied;
+}
+
+AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelSettings& settings) {
+  const MeshUses uses = find_mesh_uses(scene, world, settings);
+  const Cost cost = cost_of(uses.paired, settings);
+  std::vector<double> primitives(uses.instanced.size(), -1);  // by mesh; -1: not yet met
+  double held = 0, largest = 0, top = 0;  // primitives of the largest mesh that is built alone, of the rest
+  std::size_t instances = 0;
+  for (const Placement& p : world.placements) {
+    const bool instanced = uses.instanced[p.mesh], is_new = primitives[p.mesh] < 0;
+    double& count = primitives[p.mesh];
+    if (is_new) {
+      count = count_primitives(world, p, uses.paired);
+      if (uses.paired) held += kPairBytes * count;
+    }
+    instances += instanced;
+    if (instanced && !is_new) continue;
+    held += cost.held * count;
+    for (std::uint32_t i = p.first_part; i < p.first_part + p.part_count; ++i) {
+      const SharedArray<Vec3f>& positions = world.parts[i].primitive->positions;
+      if (copies_vertices(positions, instanced || p.identity ? nullptr : &p.to_world))
+        held += double(positions.bytes());
+    }
+    if (instanced)
+      largest = std::max(largest, count);
+    else
+      top += count;
+  }
+  held += kInstanceBytes * double(instances) + kSolidBytes * double(world.solids.size());
+  const double building = cost.building * std::max(largest, top);
+  return {std::size_t(held), std::size_t(held + building)};
+}
+
+}  // namespace parian

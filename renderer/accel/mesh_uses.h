@@ -1,0 +1,24 @@
+/// How the meshes of a world go into its BVHs: decided alike for the build and for its estimate.
+#pragma once
+
+#include <vector>
+
+#include "renderer/accel/accel.h"
+
+namespace parian {
+
+struct MeshUses {
+  std::vector<bool> instanced;  // by mesh: it has a BVH of its own
+  // Triangles are traced in pairs. All meshes alike: with both kinds Embree would send each ray through two
+  // BVHs.
+  bool paired = false;
+};
+
+MeshUses find_mesh_uses(const Scene& scene, const World& world, const AccelSettings& settings);
+
+/// Whether Embree gets a copy of the vertices. `to_world`: where they are to be in world space, else null.
+inline bool copies_vertices(const SharedArray<Vec3f>& positions, const Affine* to_world) {
+  return to_world || !positions.padded();
+}
+
+}  // namespace parian
