@@ -10,8 +10,8 @@
 namespace parian {
 namespace {
 
-// A plane of 8 million equal triangles, the best that Draco's own encoder does (docs/measurements.md), is 13
-// triangles a byte, which take 2300 bytes while they are decoded.
+// A plane of 8 million equal triangles, the best that Draco's own encoder does, has 13 triangles a byte; for
+// a byte that is 1700 bytes of what the decoder takes.
 constexpr std::size_t kMaxGrowth = 4096;
 
 constexpr std::uint32_t kIndices = std::numeric_limits<std::uint32_t>::max();  // no attribute has this id
