@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "scene_io/gltf_decompress.h"
 #include "scene_io/gltf_read.h"
 #include "scene_io/gltf_schema.h"
 
@@ -39,7 +40,12 @@ Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vect
     if (settings.on_phase) settings.on_phase(phase);
   };
   begin("reading");
-  const GltfDocument document = read_document(path);
+  GltfDocument document = read_document(path);
+  if (is_compressed(document)) {
+    begin("decompressing");
+    decompress(document);
+  }
+  check_document(document);
   Warnings notes(path, warnings);
   for (const std::string& name : document.model.extensionsUsed) {
     if (!reads_extension(name)) notes.add(name + " is not supported and is ignored");

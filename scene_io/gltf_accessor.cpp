@@ -18,6 +18,8 @@ constexpr std::size_t kChunk = std::size_t(1) << 16;
 // The largest honest growth: a 1-byte index that becomes a 12-byte triangle of a strip, or a quantised 4-byte
 // rotation that becomes an instance transform. More means that accessors overlap.
 constexpr std::size_t kMaxGrowth = 64;
+// Compressed elements have grown already, and none of them is a single byte.
+constexpr std::size_t kMaxDecodedGrowth = 16;
 constexpr std::size_t kSmallFile = std::size_t(64) << 20;
 
 bool accepts(const tinygltf::Accessor& accessor, Components components) {
@@ -49,12 +51,13 @@ std::optional<SharedArray<T>> share(const GltfDocument& document, const tinygltf
                     elements.stride == sizeof(T) &&
                     reinterpret_cast<std::uintptr_t>(elements.data) % alignof(T) == 0;
   if (!fits) return std::nullopt;
-  for (const SharedArray<std::byte>& bytes : document.storage) {
-    if (elements.data < bytes.data() || elements.data >= bytes.end()) continue;
-    const bool padded =
-        bytes.padded() || elements.data + accessor.count * sizeof(T) + kArrayPadding <= bytes.end();
-    return SharedArray<T>(bytes.owner(), reinterpret_cast<const T*>(elements.data), accessor.count, padded);
-  }
+  for (const auto* arrays : {&document.storage, &document.decoded})
+    for (const SharedArray<std::byte>& bytes : *arrays) {
+      if (elements.data < bytes.data() || elements.data >= bytes.end()) continue;
+      const bool padded =
+          bytes.padded() || elements.data + accessor.count * sizeof(T) + kArrayPadding <= bytes.end();
+      return SharedArray<T>(bytes.owner(), reinterpret_cast<const T*>(elements.data), accessor.count, padded);
+    }
   return std::nullopt;
 }
 
@@ -99,6 +102,7 @@ void for_chunks(std::size_t count, const std::function<void(std::size_t, std::si
 
 AccessorReader::AccessorReader(const GltfDocument& document) : document_(document), claimable_(kSmallFile) {
   for (const auto& bytes : document.storage) claimable_ += kMaxGrowth * bytes.size();
+  for (const auto& bytes : document.decoded) claimable_ += kMaxDecodedGrowth * bytes.size();
   // Already bounded as a whole by check_document().
   for (const auto& accessor : document.model.accessors) {
     if (accessor.bufferView < 0) claimable_ += sizeof(Vec4f) * accessor.count;

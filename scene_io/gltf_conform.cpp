@@ -117,7 +117,9 @@ bool reads_extension(const std::string& name) {
                                               "EXT_lights_area",
                                               "EXT_lights_environment",
                                               "EXT_mesh_gpu_instancing",
+                                              "EXT_meshopt_compression",
                                               "EXT_texture_webp",
+                                              "KHR_draco_mesh_compression",
                                               "KHR_implicit_shapes",
                                               "KHR_lights_punctual",
                                               "KHR_materials_anisotropy",
@@ -150,6 +152,7 @@ void conform(nlohmann::json& document, const std::string& file) {
   }
   check_fields(document, document_fields(), file);
   check_version(document["asset"], file);
+  check_compression(document, file);  // gives indices that are compressed a bufferView
   check_relations(document, file);
   check_shapes(document, file);
   check_materials(document, file);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene_io/gltf_decompress.h"
 #include "scene_io/gltf_file.h"
 #include "scene_io/gltf_schema.h"
 
@@ -141,10 +142,12 @@ GltfDocument read_document(const std::string& path) {
   parse_model(document, root);
   root = {};  // before the buffers come
   fill_images(document.model, images, document);
+  const std::vector<bool> is_fallback = fallback_buffers(document.model, buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    document.buffers.push_back(load_buffer(document, buffers[i], i, chunks.binary));
+    document.buffers.push_back(is_fallback[i] ? std::span<const std::byte>()
+                                              : load_buffer(document, buffers[i], i, chunks.binary));
   }
-  check_document(document);
+  check_buffer_views(document);
   return document;
 }
 

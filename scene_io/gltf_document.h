@@ -23,6 +23,7 @@ struct GltfDocument {
   std::vector<std::span<const std::byte>> buffers;  // exactly byteLength each
   std::vector<SharedArray<std::byte>> storage;      // what the buffers are views of
   std::vector<std::shared_ptr<PageBuffer>> pages;   // of `storage`, those read from files
+  std::vector<SharedArray<std::byte>> decoded;      // what further buffers are views of, once decompressed
 
   std::span<const std::byte> view(int buffer_view) const {
     const auto& v = model.bufferViews[std::size_t(buffer_view)];
@@ -37,14 +38,17 @@ struct GltfDocument {
   }
 };
 
-/// Reads the file and its buffers, and checks all that does not need the values in the buffers: types,
-/// ranges, indices, that accessors lie in their bufferViews and those in their buffers, and that no
-/// unsupported extension is required. That the nodes form a forest is left to validate(). Images are not
-/// read. Throws InputError.
+/// Reads the file and its buffers, and checks all that needs neither the values in the buffers nor what is
+/// decompressed: types, ranges, indices, that bufferViews lie in their buffers, and that no unsupported
+/// extension is required. Images are not read. Throws InputError.
 GltfDocument read_document(const std::string& path);
 
-/// What read_document() checks once the model and the buffers are there. Throws InputError.
+/// What can be checked once nothing is compressed any more: that accessors lie in their bufferViews, and the
+/// relations between the other parts. That the nodes form a forest is left to validate(). Throws InputError.
 void check_document(const GltfDocument& document);
+
+/// The part of check_document() that read_document() does.
+void check_buffer_views(const GltfDocument& document);
 
 /// Bytes of one element of an accessor, without padding.
 std::size_t element_bytes(const tinygltf::Accessor& accessor);

@@ -44,6 +44,9 @@ Field index_map(std::string key, std::string array) {
 Field integer(std::string key) {
   return {.key = std::move(key), .kind = Kind::integer, .low = 0, .high = kExactIntegers};
 }
+Field integer_map(std::string key) {
+  return {.key = std::move(key), .kind = Kind::integer_map, .low = 0, .high = kExactIntegers};
+}
 Field choice(std::string key, std::vector<int> choices) {
   return {.key = std::move(key),
           .kind = Kind::integer,

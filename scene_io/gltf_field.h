@@ -17,6 +17,7 @@ struct Field {
     index,
     index_list,
     index_map,
+    integer_map,
     integer,
     number,
     numbers,
@@ -48,6 +49,7 @@ Field indices(std::string key, std::string array);
 Field index_map(std::string key, std::string array);
 /// In [0, 2^53], where a double counts exactly, unless said otherwise.
 Field integer(std::string key);
+Field integer_map(std::string key);
 Field choice(std::string key, std::vector<int> choices);
 /// Finite as a float, unless said otherwise.
 Field number(std::string key);

@@ -86,6 +86,7 @@ class FieldCheck {
                            size ? fmt::format("0 to {}", size - 1) : "which is empty");
       }
       case Kind::integer:
+      case Kind::integer_map:
         if (!field.choices.empty()) return fmt::format("one of {}", fmt::join(field.choices, ", "));
         return fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high);
       case Kind::number:
@@ -117,7 +118,11 @@ class FieldCheck {
       case Kind::index_list:
         return each(value, field, place, [&](json& v, const Place& p) { whole(v, field, p); });
       case Kind::index_map:
-        if (!value.is_object()) fail(place, "an object of accessor indices");
+      case Kind::integer_map:
+        if (!value.is_object()) {
+          fail(place,
+               field.kind == Kind::index_map ? "an object of accessor indices" : "an object of integers");
+        }
         for (auto& [key, entry] : value.items()) whole(entry, field, Place{&place, &key});
         return;
       case Kind::text_list:

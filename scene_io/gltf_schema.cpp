@@ -28,7 +28,20 @@ Field accessors() {
 Field buffer_views() {
   return list("bufferViews",
               {index("buffer", "/buffers").required(), integer("byteOffset"),
-               integer("byteLength").at_least(1).required(), integer("byteStride").between(4, 252)});
+               integer("byteLength").at_least(1).required(), integer("byteStride").between(4, 252),
+               object("extensions",
+                      {object("EXT_meshopt_compression",
+                              {index("buffer", "/buffers").required(), integer("byteOffset"),
+                               integer("byteLength").at_least(1).required(),
+                               integer("byteStride").between(1, 256).required(),
+                               integer("count").between(1, kMaxInt).required(),
+                               text("mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"}).required(),
+                               text("filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"})})})});
+}
+
+Field buffers() {
+  return list("buffers", {text("uri"), integer("byteLength").at_least(1).required(),
+                          object("extensions", {object("EXT_meshopt_compression", {flag("fallback")})})});
 }
 
 Field cameras() {
@@ -46,11 +59,17 @@ Field cameras() {
                                      number("fStop").positive(), number("focusDistance").at_least(0)})})});
 }
 
+Field draco() {
+  return object("KHR_draco_mesh_compression", {index("bufferView", "/bufferViews").required(),
+                                               integer_map("attributes").between(0, kMaxInt).required()});
+}
+
 Field meshes() {
   return list("meshes", {text("name"),
                          list("primitives", {index_map("attributes", "/accessors").required(),
                                              index("indices", "/accessors"), index("material", "/materials"),
-                                             choice("mode", {0, 1, 2, 3, 4, 5, 6}), list("targets", {})})
+                                             choice("mode", {0, 1, 2, 3, 4, 5, 6}), list("targets", {}),
+                                             object("extensions", {draco()})})
                              .required()});
 }
 
@@ -116,7 +135,7 @@ std::vector<Field> document_fields() {
       texts("extensionsRequired"),
       accessors(),
       buffer_views(),
-      list("buffers", {text("uri"), integer("byteLength").at_least(1).required()}),
+      buffers(),
       cameras(),
       list("images", {text("name"), text("uri"), index("bufferView", "/bufferViews")}),
       material_fields(),

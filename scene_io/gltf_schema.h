@@ -20,6 +20,11 @@ Field material_fields();
 /// InputError.
 void check_materials(const nlohmann::json& document, const std::string& file);
 
+/// The rules for compressed bufferViews and primitives that fields cannot say, of a document that its fields
+/// have passed. Accessors of compressed primitives lose what else they say of where their elements lie.
+/// Throws InputError.
+void check_compression(nlohmann::json& document, const std::string& file);
+
 /// Whether Parian reads the glTF extension of this name.
 bool reads_extension(const std::string& name);
 

@@ -37,6 +37,8 @@ HOMES = [
     (r"OpenColorIO/", ["renderer/color/"]),
     (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_difference"]),
     (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf"]),
+    (r"draco/", ["scene_io/gltf_draco", "scene_io/support/draco_"]),
+    (r"meshoptimizer\.h$", ["scene_io/gltf_meshopt"]),
     (r"nlohmann/", ["scene_io/", "renderer/apps/"]),
     (r"CLI/", ["renderer/apps/"]),
     (r"(Qt\w*/|Q[A-Z]\w*$)", ["renderer/apps/editor"]),

@@ -8,7 +8,7 @@ packages=(
   ca-certificates git cmake ninja-build g++ pkg-config python3 ccache clang-format
   # libraries
   libembree-dev libtbb-dev libopenimageio-dev libopencolorio-dev libtinygltf-dev libimath-dev libfmt-dev
-  libcli11-dev nlohmann-json3-dev
+  libcli11-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   # tests
   libgtest-dev libbenchmark-dev
 )
