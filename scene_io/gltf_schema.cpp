@@ -48,18 +48,20 @@ Field cameras() {
 
 Field meshes() {
   return list("meshes", {text("name"),
-                         list("primitives", {index_map("attributes", "/accessors").required(),
-                                             index("indices", "/accessors"), index("material", "/materials"),
-                                             choice("mode", {0, 1, 2, 3, 4, 5, 6}), list("targets", {})})
-                             .required()});
+                         list("primitives",
+                              {index_map("attributes", "/accessors").required(),
+                               index("indices", "/accessors"), index("material", "/materials"),
+                               choice("mode", {0, 1, 2, 3, 4, 5, 6}), index_maps("targets", "/accessors")})
+                             .required(),
+                         numbers("weights", kAnyCount)});
 }
 
 Field nodes() {
   return list(
       "nodes",
       {text("name"), indices("children", "/nodes"), index("mesh", "/meshes"), index("camera", "/cameras"),
-       integer("skin").between(0, kMaxInt), numbers("matrix", 16), numbers("translation", 3),
-       numbers("rotation", 4), numbers("scale", 3),
+       index("skin", "/skins"), numbers("weights", kAnyCount), numbers("matrix", 16),
+       numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3),
        object("extensions",
               {object("KHR_lights_punctual",
                       {index("light", "/extensions/KHR_lights_punctual/lights").required()}),
@@ -115,6 +117,7 @@ std::vector<Field> document_fields() {
       texts("extensionsUsed"),
       texts("extensionsRequired"),
       accessors(),
+      animation_fields(),
       buffer_views(),
       list("buffers", {text("uri"), integer("byteLength").at_least(1).required()}),
       cameras(),
@@ -123,6 +126,7 @@ std::vector<Field> document_fields() {
       meshes(),
       nodes(),
       list("samplers", {choice("magFilter", {9728, 9729}), choice("wrapS", wrap), choice("wrapT", wrap)}),
+      skin_fields(),
       list("scenes", {text("name"), indices("nodes", "/nodes"),
                       object("extensions",
                              {object("EXT_lights_environment",
