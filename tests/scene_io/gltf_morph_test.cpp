@@ -187,6 +187,7 @@ TEST_F(GltfMorph, MakesAMeshForEachWeightThatIsDrawn) {
 
 TEST_F(GltfMorph, PrimitivesOfTheSameVerticesGoOnSharingThem) {
   weigh(1);
+  add_attribute("NORMAL", builder.add<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3"), rise);
   json& primitives = builder.root["meshes"][0]["primitives"];
   json second = primitives[0];
   second["mode"] = 6;
@@ -195,6 +196,7 @@ TEST_F(GltfMorph, PrimitivesOfTheSameVerticesGoOnSharingThem) {
   primitives[2]["targets"] = {json::object()};
   const Mesh mesh = load(builder.glb()).meshes.at(0);
   EXPECT_EQ(mesh.primitives[0].positions.data(), mesh.primitives[1].positions.data());
+  EXPECT_EQ(mesh.primitives[0].normals.data(), mesh.primitives[1].normals.data());
   EXPECT_EQ(mesh.primitives[0].positions[0].z, 1);
   EXPECT_EQ(mesh.primitives[1].triangles[0], (Triangle{1, 2, 0}));
   EXPECT_EQ(mesh.primitives[2].positions[0].z, 0);
