@@ -59,7 +59,10 @@ Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vect
   read_cameras(document, scene, notes);
   read_lights(document, scene);
   read_shapes(document, scene);
-  read_nodes(document, accessors, scene, notes);
+  const Pose pose = settings.at ? read_pose(document, accessors, *settings.at) : Pose{};
+  if (settings.at && document.model.animations.empty()) notes.add("there are no animations");
+  read_nodes(document, accessors, pose, scene);
+  deform_meshes(document, accessors, pose, scene);
   begin("checking");
   validate(scene, path);
   release_unused(document, scene);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,12 @@ namespace parian {
 
 struct LoadSettings {
   std::function<void(const char* phase)> on_phase;  // told what begins, if set
+  std::optional<double> at;  // seconds: the pose of the animations then; none: the pose of the file
 };
 
-/// Reads the default scene of a .gltf or .glb file (external files and data URIs included), validated. Things
-/// that are skipped are named in `warnings`, one line each, each at most once a file. Throws InputError.
+/// Reads, with its morph targets and skins applied, the default scene of a .gltf or .glb file (external files
+/// and data URIs included), validated. Things that are skipped are named in `warnings`, one line each, each
+/// at most once a file. Throws InputError.
 Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vector<std::string>& warnings);
 
 /// All files as one scene. Throws InputError.

@@ -33,8 +33,8 @@ bool accepts(const tinygltf::Accessor& accessor, Components components) {
   }
 }
 
-std::string describe(std::size_t dimension, Components components) {
-  std::string text = fmt::format("an accessor of VEC{}, float", dimension);
+std::string describe(const std::string& type, Components components) {
+  std::string text = fmt::format("an accessor of {}, float", type);
   if (components.normalized_integers)
     text += components.plain_integers ? " or 8 or 16 bit" : " or normalized 8 or 16 bit";
   return text;
@@ -91,6 +91,12 @@ void require(const GltfDocument& document, std::size_t bytes, const std::string&
   document.fail(where, error.what());
 }
 
+std::string type_name(int type) {
+  if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
+  const int components = tinygltf::GetNumComponentsInType(std::uint32_t(type));
+  return type == TINYGLTF_TYPE_MAT4 ? "MAT4" : fmt::format("VEC{}", components);
+}
+
 }  // namespace
 
 void for_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
@@ -130,7 +136,7 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
   const bool fits =
       is_vector && (dimension == int(Vector::dimensions()) || (dimension == 3 && Vector::dimensions() == 4));
   if (!fits || !accepts(accessor, components)) {
-    document_.fail(where, "expected " + describe(Vector::dimensions(), components));
+    document_.fail(where, "expected " + describe(fmt::format("VEC{}", Vector::dimensions()), components));
   }
   if (const auto known = cache.find(number); known != cache.end()) return known->second;
 
@@ -160,6 +166,31 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
 template SharedArray<Vec2f> AccessorReader::vectors<Vec2f>(int, Components, const std::string&);
 template SharedArray<Vec3f> AccessorReader::vectors<Vec3f>(int, Components, const std::string&);
 template SharedArray<Vec4f> AccessorReader::vectors<Vec4f>(int, Components, const std::string&);
+
+SharedArray<float> AccessorReader::numbers(int number, int type, Components components,
+                                           const std::string& where) {
+  const auto& accessor = document_.model.accessors[std::size_t(number)];
+  if (accessor.type != type || !accepts(accessor, components))
+    document_.fail(where, "expected " + describe(type_name(type), components));
+  if (const auto known = numbers_.find(number); known != numbers_.end()) return known->second;
+
+  const auto width = std::size_t(tinygltf::GetNumComponentsInType(std::uint32_t(type)));
+  claim(accessor.count * width * sizeof(float), where);
+  std::vector<float> values(accessor.count * width, 0);
+  const Elements base = base_elements(document_, accessor);
+  if (base.data) decode_floats(base, 0, accessor.count, values.data(), width);
+  const Elements replacements = accessor.sparse.isSparse ? sparse_elements(document_, accessor) : Elements{};
+  for_sparse(document_, number, [&](std::size_t position, std::size_t k) {
+    decode_floats(replacements, k, k + 1, &values[position * width], width);
+  });
+  const auto bad = std::ranges::find_if(values, [](float value) { return !std::isfinite(value); });
+  if (bad != values.end()) {
+    document_.fail(fmt::format("/accessors/{}", number),
+                   fmt::format("expected finite numbers, element {} holds {}",
+                               std::size_t(bad - values.begin()) / width, *bad));
+  }
+  return numbers_[number] = std::move(values);
+}
 
 AccessorReader::Indices AccessorReader::decode_indices(int number, const std::string& where) {
   const auto& accessor = document_.model.accessors[std::size_t(number)];

@@ -1,4 +1,4 @@
-/// Accessors as arrays of floats or indices, whatever way the file stores them.
+/// Accessors as arrays of floats, vectors or indices, whatever way the file stores them.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,10 @@ class AccessorReader {
   template <class Vector>
   SharedArray<Vector> vectors(int accessor, Components components, const std::string& where);
 
+  /// The components of all elements, one behind the other, finite; the elements are of tinygltf's `type`
+  /// SCALAR, VEC2 to VEC4 or MAT4. `where` as above. Throws InputError.
+  SharedArray<float> numbers(int accessor, int type, Components components, const std::string& where);
+
   /// The elements as indices, each below `limit`. Throws InputError.
   SharedArray<std::uint32_t> indices(int accessor, std::size_t limit, const std::string& where);
 
@@ -52,6 +56,7 @@ class AccessorReader {
   std::map<int, SharedArray<Vec2f>> vec2_;
   std::map<int, SharedArray<Vec3f>> vec3_;
   std::map<int, SharedArray<Vec4f>> vec4_;
+  std::map<int, SharedArray<float>> numbers_;
   std::map<int, Indices> indices_;
 };
 

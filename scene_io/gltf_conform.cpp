@@ -156,6 +156,7 @@ void conform(nlohmann::json& document, const std::string& file) {
   check_relations(document, file);
   check_shapes(document, file);
   check_materials(document, file);
+  check_animations(document, file);
 }
 
 }  // namespace parian

@@ -41,6 +41,9 @@ Field indices(std::string key, std::string array) {
 Field index_map(std::string key, std::string array) {
   return {.key = std::move(key), .kind = Kind::index_map, .array = std::move(array)};
 }
+Field index_maps(std::string key, std::string array) {
+  return {.key = std::move(key), .kind = Kind::index_map_list, .array = std::move(array)};
+}
 Field integer(std::string key) {
   return {.key = std::move(key), .kind = Kind::integer, .low = 0, .high = kExactIntegers};
 }

@@ -9,6 +9,9 @@
 
 namespace parian {
 
+/// For numbers(): an array of any length.
+inline constexpr std::size_t kAnyCount = std::size_t(-1);
+
 /// One member. Made by the functions below, which read as sentences: number("range").positive().
 struct Field {
   enum class Kind {
@@ -18,6 +21,7 @@ struct Field {
     index_list,
     index_map,
     integer_map,
+    index_map_list,
     integer,
     number,
     numbers,
@@ -28,7 +32,7 @@ struct Field {
   std::string key;
   Kind kind = Kind::object;
   double low = -std::numeric_limits<float>::max(), high = std::numeric_limits<float>::max();
-  std::size_t count = 0;                // numbers: how many
+  std::size_t count = 0;                // numbers: how many, any if kAnyCount
   std::string array = {};               // index kinds: JSON pointer of the array they point into
   std::vector<std::string> texts = {};  // text: the choices, all if empty
   std::vector<int> choices = {};        // integer: the choices, all in [low, high] if empty
@@ -47,6 +51,7 @@ Field list(std::string key, std::vector<Field> fields);
 Field index(std::string key, std::string array);
 Field indices(std::string key, std::string array);
 Field index_map(std::string key, std::string array);
+Field index_maps(std::string key, std::string array);
 /// In [0, 2^53], where a double counts exactly, unless said otherwise.
 Field integer(std::string key);
 Field integer_map(std::string key);

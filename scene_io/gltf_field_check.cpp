@@ -80,7 +80,8 @@ class FieldCheck {
         return "an array of objects";
       case Kind::index:
       case Kind::index_list:
-      case Kind::index_map: {
+      case Kind::index_map:
+      case Kind::index_map_list: {
         const std::size_t size = sizes_.at(field.array);
         return fmt::format("an index into {} ({})", field.array,
                            size ? fmt::format("0 to {}", size - 1) : "which is empty");
@@ -91,8 +92,9 @@ class FieldCheck {
         return fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high);
       case Kind::number:
       case Kind::numbers: {
-        const std::string what =
-            field.kind == Kind::number ? "a number" : fmt::format("{} numbers, each", field.count);
+        const std::string what = field.kind == Kind::number ? "a number"
+                                 : field.count == kAnyCount ? "an array of numbers, each"
+                                                            : fmt::format("{} numbers, each", field.count);
         if (field.low == std::numeric_limits<float>::min()) return what + " above 0";
         if (field.low == -std::numeric_limits<float>::max()) return what + " in the range of a float";
         if (field.high == std::numeric_limits<float>::max())
@@ -118,19 +120,21 @@ class FieldCheck {
       case Kind::index_list:
         return each(value, field, place, [&](json& v, const Place& p) { whole(v, field, p); });
       case Kind::index_map:
+        return map(value, field, place);
       case Kind::integer_map:
-        if (!value.is_object()) {
-          fail(place,
-               field.kind == Kind::index_map ? "an object of accessor indices" : "an object of integers");
-        }
+        if (!value.is_object()) fail(place, "an object of integers");
         for (auto& [key, entry] : value.items()) whole(entry, field, Place{&place, &key});
         return;
+      case Kind::index_map_list:
+        return each(value, field, place, [&](json& v, const Place& p) { map(v, field, p); });
       case Kind::text_list:
         return each(value, field, place, [&](json& v, const Place& p) {
           if (!v.is_string()) fail(p, "a string");
         });
       case Kind::numbers:
-        if (!value.is_array() || value.size() != field.count) fail(place, describe(field));
+        if (!value.is_array() || (field.count != kAnyCount && value.size() != field.count)) {
+          fail(place, describe(field));
+        }
         return each(value, field, place, [&](json& v, const Place& p) { real(v, field, p); });
       case Kind::index:
         return whole(value, field, place);
@@ -151,10 +155,17 @@ class FieldCheck {
     }
   }
 
+  void map(json& value, const Field& field, const Place& place) {
+    if (!value.is_object()) fail(place, "an object of accessor indices");
+    for (auto& [key, entry] : value.items()) whole(entry, field, Place{&place, &key});
+  }
+
   template <class Body>
   void each(json& value, const Field& field, const Place& place, const Body& body) {
     if (!value.is_array())
-      fail(place, field.kind == Kind::index_list ? "an array of indices" : describe(field));
+      fail(place, field.kind == Kind::index_list       ? "an array of indices"
+                  : field.kind == Kind::index_map_list ? "an array of objects"
+                                                       : describe(field));
     for (std::size_t i = 0; i < value.size(); ++i) body(value[i], Place{&place, nullptr, i});
   }
 

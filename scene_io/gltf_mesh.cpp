@@ -54,22 +54,15 @@ Primitive read_primitive(const GltfDocument& document, AccessorReader& accessors
   return primitive;
 }
 
-bool is_drawn(const tinygltf::Primitive& source, Warnings& warnings) {
-  if (source.mode >= 0 && source.mode < TINYGLTF_MODE_TRIANGLES) {
-    warnings.add("points and lines are not drawn");
-    return false;
-  }
-  if (!source.attributes.contains("POSITION")) {
-    // glTF leaves such primitives to extensions; there is nothing to draw.
-    warnings.add("primitives without POSITION are not drawn");
-    return false;
-  }
-  if (!source.targets.empty())
-    warnings.add("morph targets are not applied: the mesh is drawn in its rest pose");
-  return true;
+bool has_triangles(const tinygltf::Primitive& source) {
+  return source.mode < 0 || source.mode >= TINYGLTF_MODE_TRIANGLES;
 }
 
 }  // namespace
+
+bool is_drawn(const tinygltf::Primitive& primitive) {
+  return has_triangles(primitive) && primitive.attributes.contains("POSITION");
+}
 
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings) {
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
@@ -77,7 +70,12 @@ void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene&
     Mesh mesh{.name = source.name, .primitives = {}};
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
       const std::string where = fmt::format("/meshes/{}/primitives/{}", m, p);
-      if (!is_drawn(source.primitives[p], warnings)) continue;
+      if (!is_drawn(source.primitives[p])) {
+        // glTF leaves primitives without POSITION to extensions; there is nothing to draw.
+        warnings.add(has_triangles(source.primitives[p]) ? "primitives without POSITION are not drawn"
+                                                         : "points and lines are not drawn");
+        continue;
+      }
       Primitive primitive = read_primitive(document, accessors, source.primitives[p], where);
       if (primitive.material == kNone) primitive.material = default_material(document, scene);
       mesh.primitives.push_back(std::move(primitive));

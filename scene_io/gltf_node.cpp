@@ -90,13 +90,19 @@ SharedArray<InstanceTransform> read_instances(const tinygltf::Value& extension, 
   return array;
 }
 
+void set_pose(const NodePose& pose, Transform& transform) {
+  if (pose.translation) transform.translation = *pose.translation;
+  if (pose.rotation) transform.rotation = *pose.rotation;
+  if (pose.scale) transform.scale = *pose.scale;
+}
+
 int punctual_count(const GltfDocument& document) {
   const auto* extension = find_extension(document.model.extensions, "KHR_lights_punctual");
   return extension && extension->Has("lights") ? int(extension->Get("lights").ArrayLen()) : 0;
 }
 
 Node read_node(const tinygltf::Node& source, const GltfDocument& document, AccessorReader& accessors,
-               const std::string& where, Warnings& warnings) {
+               const std::string& where) {
   Node node;
   node.name = source.name;
   node.transform = read_transform(source, document, where);
@@ -110,7 +116,6 @@ Node read_node(const tinygltf::Node& source, const GltfDocument& document, Acces
     node.shape = index_or_none(*shape, "shape");
     node.shape_material = index_or_none(*shape, "material");
   }
-  if (source.skin >= 0) warnings.add("skins are not applied: the mesh is drawn in its rest pose");
   const auto* instancing = find_extension(source.extensions, "EXT_mesh_gpu_instancing");
   if (instancing && (node.mesh != kNone || node.shape != kNone)) {
     const std::string place = where + "/extensions/EXT_mesh_gpu_instancing/attributes";
@@ -140,12 +145,13 @@ int default_scene(const GltfDocument& document) {
   return std::max(document.model.defaultScene, 0);
 }
 
-void read_nodes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings) {
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene) {
   std::vector<Node> area_nodes;  // for nodes that have a light already
   const int first_area_light = punctual_count(document);
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
     const tinygltf::Node& source = document.model.nodes[i];
-    Node node = read_node(source, document, accessors, fmt::format("/nodes/{}", i), warnings);
+    Node node = read_node(source, document, accessors, fmt::format("/nodes/{}", i));
+    if (const auto posed = pose.find(int(i)); posed != pose.end()) set_pose(posed->second, node.transform);
     if (node.shape != kNone && node.shape_material == kNone) {
       node.shape_material = default_material(document, scene);
     }

@@ -5,6 +5,7 @@
 
 #include "renderer/scene/scene.h"
 #include "scene_io/gltf_accessor.h"
+#include "scene_io/gltf_animation.h"
 #include "scene_io/gltf_document.h"
 
 namespace parian {
@@ -20,6 +21,12 @@ std::vector<Image> read_images(const GltfDocument& document, const std::vector<i
 
 /// Triangle meshes. Primitives without material get the default one.
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
+
+/// Whether read_meshes() keeps the primitive; those of a mesh keep their order.
+bool is_drawn(const tinygltf::Primitive& primitive);
+
+/// How many morph targets a mesh of the document has, the same for all its primitives; of kNone none.
+std::size_t morph_target_count(const GltfDocument& document, int mesh);
 
 /// Triangles of glTF mode 4 (list), 5 (strip) or 6 (fan), of `indices` or of all vertices where that is
 /// kNone; `where` is the primitive's JSON path.
@@ -41,8 +48,12 @@ void read_lights(const GltfDocument& document, Scene& scene);
 /// extension's use, and a default shape takes its place.
 void read_shapes(const GltfDocument& document, Scene& scene);
 
-/// Nodes, and as roots those of the default scene. Shapes without material get the default one.
-void read_nodes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);
+/// Nodes in the pose, and as roots those of the default scene. Shapes without material get the default one.
+void read_nodes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene);
+
+/// Gives the nodes that are drawn the meshes that morph targets and skins make of theirs, once all else is
+/// there. Meshes that nothing deforms stay as they are, and shared.
+void deform_meshes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene);
 
 /// The index of the scene to draw, or kNone where the document has none.
 int default_scene(const GltfDocument& document);

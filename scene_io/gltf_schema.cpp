@@ -65,20 +65,22 @@ Field draco() {
 }
 
 Field meshes() {
-  return list("meshes", {text("name"),
-                         list("primitives", {index_map("attributes", "/accessors").required(),
-                                             index("indices", "/accessors"), index("material", "/materials"),
-                                             choice("mode", {0, 1, 2, 3, 4, 5, 6}), list("targets", {}),
-                                             object("extensions", {draco()})})
-                             .required()});
+  return list(
+      "meshes",
+      {text("name"),
+       list("primitives", {index_map("attributes", "/accessors").required(), index("indices", "/accessors"),
+                           index("material", "/materials"), choice("mode", {0, 1, 2, 3, 4, 5, 6}),
+                           index_maps("targets", "/accessors"), object("extensions", {draco()})})
+           .required(),
+       numbers("weights", kAnyCount)});
 }
 
 Field nodes() {
   return list(
       "nodes",
       {text("name"), indices("children", "/nodes"), index("mesh", "/meshes"), index("camera", "/cameras"),
-       integer("skin").between(0, kMaxInt), numbers("matrix", 16), numbers("translation", 3),
-       numbers("rotation", 4), numbers("scale", 3),
+       index("skin", "/skins"), numbers("weights", kAnyCount), numbers("matrix", 16),
+       numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3),
        object("extensions",
               {object("KHR_lights_punctual",
                       {index("light", "/extensions/KHR_lights_punctual/lights").required()}),
@@ -134,6 +136,7 @@ std::vector<Field> document_fields() {
       texts("extensionsUsed"),
       texts("extensionsRequired"),
       accessors(),
+      animation_fields(),
       buffer_views(),
       buffers(),
       cameras(),
@@ -142,6 +145,7 @@ std::vector<Field> document_fields() {
       meshes(),
       nodes(),
       list("samplers", {choice("magFilter", {9728, 9729}), choice("wrapS", wrap), choice("wrapT", wrap)}),
+      skin_fields(),
       list("scenes", {text("name"), indices("nodes", "/nodes"),
                       object("extensions",
                              {object("EXT_lights_environment",

@@ -16,6 +16,10 @@ std::vector<Field> document_fields();
 /// Of these, the materials.
 Field material_fields();
 
+/// And skins and animations.
+Field skin_fields();
+Field animation_fields();
+
 /// The rules for materials that fields cannot say, of a document that its fields have passed. Throws
 /// InputError.
 void check_materials(const nlohmann::json& document, const std::string& file);
@@ -24,6 +28,8 @@ void check_materials(const nlohmann::json& document, const std::string& file);
 /// have passed. Accessors of compressed primitives lose what else they say of where their elements lie.
 /// Throws InputError.
 void check_compression(nlohmann::json& document, const std::string& file);
+/// The same for animations; a channel without a node gets node -1. Throws InputError.
+void check_animations(nlohmann::json& document, const std::string& file);
 
 /// Whether Parian reads the glTF extension of this name.
 bool reads_extension(const std::string& name);

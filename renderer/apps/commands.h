@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <optional>
 
 namespace parian {
 
@@ -24,6 +25,14 @@ inline CLI::Validator number_between(double low, double high) {
     return fmt::format("expected a number from {} to {}, not {}", low, high, text);
   };
   return CLI::Validator(check, "");
+}
+
+/// The option that poses the scenes' animations.
+inline void add_at_option(CLI::App& app, std::optional<double>& at) {
+  app.add_option("--at", at,
+                 "Pose of the scenes' animations at this time, in seconds; without it the pose of the files")
+      ->check(number_between(0, 1e9))
+      ->type_name("SECONDS");
 }
 
 Command add_render_command(CLI::App& app);

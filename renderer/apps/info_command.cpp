@@ -13,6 +13,7 @@ namespace {
 
 struct InfoOptions {
   std::vector<std::string> scenes;
+  LoadSettings load_settings;
   std::string size, memory;
 };
 
@@ -35,7 +36,7 @@ int info(const InfoOptions& o) {
   if (!o.memory.empty()) set_memory_limit(parse_bytes("--memory", o.memory));
   memory_limit();
   std::vector<std::string> notes;
-  const Scene scene = load_scene(o.scenes, {}, notes);
+  const Scene scene = load_scene(o.scenes, o.load_settings, notes);
   const World world = make_world(scene);
   fmt::print("{}", describe(scene, world));
   fmt::print("{:<12} {}\n", "rendering", describe_memory(scene, world, o));
@@ -55,6 +56,7 @@ Command add_info_command(CLI::App& app) {
   c.add_option("--memory", o.memory,
                "Memory to stay below, as 8G or 500M; what the machine has free by default")
       ->type_name("BYTES");
+  add_at_option(c, o.load_settings.at);
   return [options] { return info(*options); };
 }
 

@@ -35,6 +35,7 @@ struct RenderOptions {
   std::vector<std::string> layers;
   RenderSettings settings;
   IntegratorSettings integrator_settings;
+  LoadSettings load_settings;
   float exposure = 0;
   std::uint32_t spp = 0;  // 0: not given
   int threads = 0;
@@ -167,7 +168,9 @@ void check_outputs(const RenderOptions& o) {
 /// The scene to render; `notes` holds what it lacks and what was skipped.
 std::shared_ptr<const Scene> load(const RenderOptions& o, PhaseLine& phases,
                                   std::vector<std::string>& notes) {
-  auto scene = std::make_shared<Scene>(load_scene(o.scenes, {.on_phase = std::ref(phases)}, notes));
+  LoadSettings settings = o.load_settings;
+  settings.on_phase = std::ref(phases);
+  auto scene = std::make_shared<Scene>(load_scene(o.scenes, settings, notes));
   if (!o.environment.empty()) {
     scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
     scene->images.push_back(read_image(o.environment));
@@ -183,9 +186,11 @@ std::string checkpoint_key(const RenderOptions& o) {
     for (const char c : read_file(path)) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3u;
   const RenderSettings& s = o.settings;
   return fmt::format(
-      "scene {:016x} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy {} "
+      "scene {:016x} at {} env '{}' size {}x{} camera {} seed {} sampler {} filter {} integrator {} strategy "
+      "{} "
       "lights {} ggx {} sss {} depth {} clamp {} layers {}{}{}",
-      hash, o.environment, s.width, s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
+      hash, o.load_settings.at ? fmt::format("{} s", *o.load_settings.at) : "rest", o.environment, s.width,
+      s.height, s.camera, s.seed, int(s.sampler), int(s.filter), o.integrator,
       int(o.integrator_settings.strategy), int(s.light_choice), int(o.integrator_settings.microfacets),
       int(o.integrator_settings.subsurface), o.integrator_settings.max_depth, o.integrator_settings.clamp,
       s.layers.variance, s.layers.sample_count, s.layers.features);
@@ -299,6 +304,7 @@ Command add_render_command(CLI::App& app) {
   c.add_option("--size", o.size, "Picture size; by default 960 wide in the camera's shape")->type_name("WxH");
   c.add_option("--camera", o.camera, "Camera by name or number; the first by default")
       ->type_name("NAME|INDEX");
+  add_at_option(c, o.load_settings.at);
   c.add_option("--env", o.environment, "Equirectangular image that replaces the scene's environment")
       ->type_name("FILE");
   c.add_option("--spp", o.spp, "Samples for each pixel, or for the mean pixel with --noise [64]")

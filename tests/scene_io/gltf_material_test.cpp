@@ -1,12 +1,19 @@
 // Materials, textures, images and the environment.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "scene_io/gltf_file.h"
 #include "tests/scene_io/support/gltf_builder.h"
 
 namespace parian {
 namespace {
+
+std::string decoded_base64(const std::string& text) {
+  const SharedArray<std::byte> bytes = decode_data_uri("data:;base64," + text);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 class GltfMaterial : public GltfTest {
  protected:
@@ -180,6 +187,31 @@ TEST_F(GltfMaterial, PrefersWebpSources) {
   builder.root["textures"] = {{{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
   material({{"emissiveTexture", {{"index", 0}}}});
   EXPECT_EQ(scene.images.at(0).width, 5);
+}
+
+// Made by cwebp without loss: 3 x 2 pixels.
+TEST_F(GltfMaterial, DecodesWebpToTheTexel) {
+  const std::string bytes = decoded_base64(
+      "UklGRk4AAABXRUJQVlA4TEEAAAAvAkAAAC+gkI0kaF+RBTt/hTNR2kgKdB94+i8SjUJNAAKMUU19aVy++Q88SvZ3"
+      "7djMbUEh2whwaveInNFF9D+eFQA=");
+  builder.root["extensionsRequired"] = {"EXT_texture_webp"};
+  builder.root["images"].push_back({{"bufferView", builder.add_bytes(bytes)}, {"mimeType", "image/webp"}});
+  for (const bool fallback : {true, false}) {
+    json texture = {{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}};
+    if (fallback) texture["source"] = 0;
+    builder.root["textures"] = {texture};
+    material({{"emissiveTexture", {{"index", 0}}}});
+    ASSERT_EQ(scene.images.size(), 1u);
+    const Image& image = scene.images[0];
+    ASSERT_EQ(image.width, 3);
+    ASSERT_EQ(image.height, 2);
+    ASSERT_EQ(image.type, PixelType::u8);
+    const std::vector<std::array<int, 3>> texels = {{255, 0, 0}, {0, 128, 0},     {0, 0, 64},
+                                                    {1, 2, 3},   {250, 251, 252}, {17, 34, 51}};
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_EQ(int(image.pixels[i * std::size_t(image.channels) + c]), texels[i][c]) << i << " " << c;
+  }
 }
 
 TEST_F(GltfMaterial, RefusesBrokenImages) {

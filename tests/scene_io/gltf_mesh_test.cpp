@@ -76,16 +76,6 @@ TEST_F(GltfMesh, SkipsPrimitivesWithoutPositions) {
   EXPECT_EQ(warnings.size(), 1u);
 }
 
-TEST_F(GltfMesh, WarnsOfRestPoses) {
-  GltfBuilder builder;
-  json& mesh = builder.add_triangle();
-  mesh["targets"] = {{{"POSITION", 0}}};
-  builder.root["skins"] = {{{"joints", {0}}}};
-  builder.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"mesh", 0}, {"skin", 0}}};
-  load(builder.glb());
-  EXPECT_EQ(warnings.size(), 2u);
-}
-
 TEST_F(GltfMesh, GivesPrimitivesWithoutMaterialTheDefault) {
   GltfBuilder builder;
   builder.add_triangle();

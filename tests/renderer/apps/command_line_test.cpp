@@ -83,6 +83,7 @@ TEST_F(CommandLine, BadNumbersAreTwo) {
   for (const char* clamp : {"0", "-1", "nan"})
     expect_refused(2, render_arguments({"--clamp", clamp}), "--clamp");
   expect_refused(2, render_arguments({"--seed", "-1"}), "--seed");
+  for (const char* at : {"-1", "nan", "soon"}) expect_refused(2, render_arguments({"--at", at}), "--at");
   expect_refused(2, render_arguments({"--exposure", "nan"}), "--exposure");
 }
 
@@ -131,6 +132,31 @@ TEST_F(CommandLine, InfoDescribesTheScene) {
   const Outcome outcome = run({"info", triangle});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("triangle"), std::string::npos) << outcome.out;
+}
+
+// Caught: an option that is read and forgotten.
+TEST_F(CommandLine, AtPosesTheScene) {
+  GltfBuilder builder;
+  builder.add_triangle();
+  builder.root["nodes"] = {{{"mesh", 0}}};
+  json animation;
+  animation["samplers"] = {{{"input", builder.add<float>({0, 1}, "SCALAR")},
+                            {"output", builder.add<float>({0, 0, 0, 0, 2, 0}, "VEC3")}}};
+  animation["channels"] = {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}};
+  builder.root["animations"] = {animation};
+  write("work/moves.glb", builder.glb());
+  const std::string rest = run({"info", work("moves.glb")}).out;
+  EXPECT_NE(rest.find("around (0.5, 0.5, 0)"), std::string::npos) << rest;
+  const std::string later = run({"info", work("moves.glb"), "--at", "0.75"}).out;
+  EXPECT_NE(later.find("around (0.5, 2, 0)"), std::string::npos) << later;
+  const auto picture = [&](const char* name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render", triangle, work("moves.glb"), "-o", work(name),
+                                       "--size", "40x30",  "--spp",           "4",  "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).code, 0);
+    return read_picture(work(name)).pixels;
+  };
+  EXPECT_NE(picture("a.exr", {}), picture("b.exr", {"--at", "0.75"}));
 }
 
 TEST_F(CommandLine, DisplayMakesAPicture) {
@@ -185,6 +211,8 @@ TEST_F(CommandLine, ResumingGivesTheSamePicture) {
   expect_refused(3, render_arguments({"--size", "40x30", "--seed", "1", "--resume", work("c"), "--quiet"}),
                  work("c"));
   expect_refused(3, render_arguments({"--size", "41x30", "--resume", work("c"), "--quiet"}), work("c"));
+  expect_refused(3, render_arguments({"--size", "40x30", "--at", "1", "--resume", work("c"), "--quiet"}),
+                 work("c"));
   expect_refused(
       3, render_arguments({"--size", "40x30", "--light-choice", "power", "--resume", work("c"), "--quiet"}),
       work("c"));

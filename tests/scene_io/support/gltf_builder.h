@@ -47,7 +47,7 @@ class GltfTest : public testing::Test {
 
   Scene load(const std::string& bytes, const std::string& name = "scene.glb") {
     warnings.clear();
-    return load_gltf(write(name, bytes), {}, warnings);
+    return load_gltf(write(name, bytes), settings, warnings);
   }
 
   /// The message with which a file is refused, without the path of the file; empty where it is read.
@@ -63,6 +63,7 @@ class GltfTest : public testing::Test {
     return {};
   }
 
+  LoadSettings settings;
   std::vector<std::string> warnings;
 
  private:
@@ -123,10 +124,10 @@ struct GltfBuilder {
     return std::is_same_v<T, std::uint32_t> ? 5125 : 5126;
   }
 
-  /// The index of a new accessor; type SCALAR, VEC2, VEC3 or VEC4.
+  /// The index of a new accessor; type SCALAR, VEC2, VEC3, VEC4 or MAT4.
   template <class T>
   int add(const std::vector<T>& values, const std::string& type, bool normalized = false) {
-    const std::size_t components = type == "SCALAR" ? 1 : std::size_t(type[3] - '0');
+    const std::size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : std::size_t(type[3] - '0');
     json accessor = {{"bufferView", add_view(values)},
                      {"componentType", component_type<T>()},
                      {"count", values.size() / components},
