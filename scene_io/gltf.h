@@ -9,8 +9,12 @@
 
 namespace parian {
 
+class ImageMemory;
+
 struct LoadSettings {
   std::function<void(const char* phase)> on_phase;  // told what begins, if set
+  ImageMemory* image_memory = nullptr;              // what bounds the memory of images; nullptr: nothing does
+  bool more_scenes = false;                         // whether images of others will need some of it too
 };
 
 /// Reads the default scene of a .gltf or .glb file (external files and data URIs included), validated. Things

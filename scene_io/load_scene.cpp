@@ -5,7 +5,11 @@ namespace parian {
 Scene load_scene(const std::vector<std::string>& paths, const LoadSettings& settings,
                  std::vector<std::string>& warnings) {
   Scene scene;
-  for (const std::string& path : paths) append(scene, load_gltf(path, settings, warnings));
+  LoadSettings each = settings;
+  for (const std::string& path : paths) {
+    each.more_scenes = settings.more_scenes || &path != &paths.back();
+    append(scene, load_gltf(path, each, warnings));
+  }
   return scene;
 }
 

@@ -35,7 +35,7 @@ HOMES = [
     (r"embree[34]/", ["renderer/accel/", "bench/"]),
     (r"(tbb|oneapi)/", ["renderer/base/parallel"]),
     (r"OpenColorIO/", ["renderer/color/"]),
-    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_difference"]),
+    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_cache", "scene_io/image_difference"]),
     (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf"]),
     (r"nlohmann/", ["scene_io/", "renderer/apps/"]),
     (r"CLI/", ["renderer/apps/"]),

@@ -14,7 +14,8 @@ std::size_t peak_memory_bytes() {
   return std::size_t(usage.ru_maxrss) * 1024;
 }
 
-std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const Film& film) {
+std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const Film& film,
+                       const ImageMemoryStatistics& images) {
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0.0; };
   const Noise noise = film.noise();  // what is not finite becomes null
   const nlohmann::ordered_json json = {
@@ -38,6 +39,12 @@ std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const
       {"solids", s.solids},
       {"acceleration_bytes", s.accel_bytes},
       {"acceleration_bytes_per_triangle", ratio(double(s.accel_bytes), double(s.triangles))},
+      {"images",
+       {{"memory_bytes", images.memory_bytes},
+        {"file_bytes", images.cache.file_bytes},
+        {"cache_bytes", images.cache_bytes},
+        {"cache_peak_bytes", images.cache.peak_bytes},
+        {"tile_reads", images.cache.tile_reads}}},
       {"peak_memory_bytes", peak_memory_bytes()},
   };
   return json.dump(2) + "\n";
