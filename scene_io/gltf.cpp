@@ -53,7 +53,7 @@ Scene load_gltf(const std::string& path, const LoadSettings& settings, std::vect
   Scene scene;
   AccessorReader accessors(document);
   begin("decoding images");
-  read_materials(document, scene, notes);
+  read_materials(document, settings, scene, notes);
   begin("decoding meshes");
   read_meshes(document, accessors, scene, notes);
   read_cameras(document, scene, notes);

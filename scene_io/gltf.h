@@ -10,9 +10,13 @@
 
 namespace parian {
 
+class ImageMemory;
+
 struct LoadSettings {
   std::function<void(const char* phase)> on_phase;  // told what begins, if set
   std::optional<double> at;  // seconds: the pose of the animations then; none: the pose of the file
+  ImageMemory* image_memory = nullptr;  // what bounds the memory of images; nullptr: nothing does
+  bool more_scenes = false;             // whether images of others will need some of it too
 };
 
 /// Reads, with its morph targets and skins applied, the default scene of a .gltf or .glb file (external files

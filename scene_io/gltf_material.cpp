@@ -59,12 +59,13 @@ int default_material(const GltfDocument& document, Scene& scene) {
   return int(index);
 }
 
-void read_materials(const GltfDocument& document, Scene& scene, Warnings& warnings) {
+void read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
+                    Warnings& warnings) {
   TextureTable textures(document, scene, warnings);
   for (const auto& source : document.model.materials)
     scene.materials.push_back(read_material(source, textures));
   read_environment(document, textures, scene);
-  scene.images = read_images(document, textures.images());
+  scene.images = read_images(document, textures.images(), scene.environment.image, settings);
 }
 
 }  // namespace parian

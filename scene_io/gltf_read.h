@@ -4,6 +4,7 @@
 #pragma once
 
 #include "renderer/scene/scene.h"
+#include "scene_io/gltf.h"
 #include "scene_io/gltf_accessor.h"
 #include "scene_io/gltf_animation.h"
 #include "scene_io/gltf_document.h"
@@ -11,13 +12,17 @@
 namespace parian {
 
 /// Materials with the textures and images that they and the environment use. Images are decoded in parallel.
-void read_materials(const GltfDocument& document, Scene& scene, Warnings& warnings);
+void read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
+                    Warnings& warnings);
 
 /// The material of what has none: one for the whole file, after those of the file, appended at its first use.
 int default_material(const GltfDocument& document, Scene& scene);
 
-/// Decodes the images that `used` names (indices into the document's images), in that order.
-std::vector<Image> read_images(const GltfDocument& document, const std::vector<int>& used);
+/// Decodes the images that `used` names (indices into the document's images), in that order, into memory or
+/// beyond it as the settings say. `environment` is the number of the environment map among them, or kNone: it
+/// stays in memory.
+std::vector<Image> read_images(const GltfDocument& document, const std::vector<int>& used, int environment,
+                               const LoadSettings& settings);
 
 /// Triangle meshes. Primitives without material get the default one.
 void read_meshes(const GltfDocument& document, AccessorReader& accessors, Scene& scene, Warnings& warnings);

@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+
+#include "scene_io/gltf_file.h"
 
 namespace parian {
 namespace {
@@ -27,7 +30,10 @@ Wrap to_wrap(int mode) {
 
 int TextureTable::use_image(int image) {
   const auto& source = document_.model.images[std::size_t(image)];
-  const auto [found, is_new] = image_of_.try_emplace({source.uri, source.bufferView}, int(images_.size()));
+  // However a file's path is written: with ./ before it, or not.
+  const std::string from =
+      is_data_uri(source.uri) ? source.uri : std::filesystem::path(source.uri).lexically_normal().string();
+  const auto [found, is_new] = image_of_.try_emplace({from, source.bufferView}, int(images_.size()));
   if (is_new) images_.push_back(image);
   return found->second;
 }

@@ -19,6 +19,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/base/parallel.h"
+#include "scene_io/image_io_type.h"
 
 namespace parian {
 namespace {
@@ -230,20 +231,6 @@ PixelType texture_type(const Reader& reader, int first, int last) {
   return type;
 }
 
-OIIO::TypeDesc oiio_type(PixelType type) {
-  switch (type) {
-    case PixelType::u8:
-      return OIIO::TypeDesc::UINT8;
-    case PixelType::u16:
-      return OIIO::TypeDesc::UINT16;
-    case PixelType::f16:
-      return OIIO::TypeDesc::HALF;
-    case PixelType::f32:
-      break;
-  }
-  return OIIO::TypeDesc::FLOAT;
-}
-
 // Exponent bits all set is what Inf and NaN are made of, in half and in float.
 void check_finite(const Image& image, const std::string& name) {
   const auto check = [&](auto exponent) {
@@ -295,6 +282,12 @@ int channel_index(const Picture& picture, std::string_view name, const std::stri
 }
 
 }  // namespace
+
+std::size_t decoded_bytes(Bytes encoded, const std::string& name) {
+  const Reader reader(encoded, name);
+  const auto [first, last] = texture_channels(reader);
+  return reader.checked_bytes(last - first, oiio_type(texture_type(reader, first, last)).size());
+}
 
 Image read_image(Bytes encoded, const std::string& name) try {
   Reader reader(encoded, name);

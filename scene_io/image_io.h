@@ -17,6 +17,9 @@ namespace parian {
 Image read_image(const std::string& path);
 Image read_image(std::span<const std::byte> encoded, const std::string& name);
 
+/// What read_image() would take for the texels, from the header alone. Throws InputError.
+std::size_t decoded_bytes(std::span<const std::byte> encoded, const std::string& name);
+
 /// Reads a picture (EXR or any other format) with all its channels and string metadata. Throws InputError.
 Picture read_picture(const std::string& path);
 

@@ -7,8 +7,10 @@ namespace parian {
 Scene load_scene(const std::vector<std::string>& paths, const LoadSettings& settings,
                  std::vector<std::string>& warnings) {
   Scene scene;
+  LoadSettings each = settings;
   for (const std::string& path : paths) {
-    Scene loaded = load_gltf(path, settings, warnings);
+    each.more_scenes = settings.more_scenes || &path != &paths.back();
+    Scene loaded = load_gltf(path, each, warnings);
     if (&path == &paths.front())
       scene = std::move(loaded);
     else

@@ -72,7 +72,8 @@ SceneStatistics scene_statistics(const Scene& scene, const World& world) {
   s.solids = world.solids.size();
   for (const PlacedSolid& solid : world.solids) s.emissive_solids += world.solid_parts[solid.part].emissive;
   for (const Part& part : world.solid_parts) s.alpha_primitives += part.alpha;
-  for (const Image& image : scene.images) s.image_bytes += image.pixels.bytes();
+  for (const Image& image : scene.images)
+    (image.source ? s.cached_image_bytes : s.image_bytes) += image_bytes(image);
   return s;
 }
 
@@ -110,12 +111,14 @@ std::string describe(const Scene& scene, const World& world) {
                      camera.lens ? ", thin lens" : ""));
   }
   for (const Image& image : scene.images)
-    if (!image.pixels.empty())
-      line("image", fmt::format("{}: {}x{}, {} channels, {}, {}", image.name, image.width, image.height,
-                                image.channels, pixel_type_name(image.type),
-                                format_bytes(double(image.pixels.bytes()))));
+    line("image", fmt::format("{}: {}x{}, {} channels, {}, {}{}", image.name, image.width, image.height,
+                              image.channels, pixel_type_name(image.type),
+                              format_bytes(double(image_bytes(image))), image.source ? ", cached" : ""));
   line("memory", fmt::format("{} geometry, {} images", format_bytes(double(s.geometry_bytes)),
                              format_bytes(double(s.image_bytes))));
+  if (s.cached_image_bytes)
+    line("cached", fmt::format("{} images more, in a temporary file, of which the cache holds a part",
+                               format_bytes(double(s.cached_image_bytes))));
   return text;
 }
 

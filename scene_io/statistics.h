@@ -15,7 +15,8 @@ struct SceneStatistics {
   std::size_t emissive_triangles = 0;  // drawn
   std::size_t solids = 0, emissive_solids = 0;
   std::size_t alpha_primitives = 0;  // stored, tested in the intersection
-  std::size_t geometry_bytes = 0, image_bytes = 0;
+  std::size_t geometry_bytes = 0;
+  std::size_t image_bytes = 0, cached_image_bytes = 0;  // of texels in memory; behind a cache
 };
 
 SceneStatistics scene_statistics(const Scene& scene, const World& world);

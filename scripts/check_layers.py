@@ -35,7 +35,7 @@ HOMES = [
     (r"embree[34]/", ["renderer/accel/", "bench/"]),
     (r"(tbb|oneapi)/", ["renderer/base/parallel"]),
     (r"OpenColorIO/", ["renderer/color/"]),
-    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_difference"]),
+    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_cache", "scene_io/image_difference"]),
     (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf"]),
     (r"draco/", ["scene_io/gltf_draco", "scene_io/support/draco_"]),
     (r"meshoptimizer\.h$", ["scene_io/gltf_meshopt"]),

@@ -3,6 +3,7 @@
 #include "renderer/apps/commands.h"
 #include "renderer/apps/picture_size.h"
 #include "renderer/apps/sizes.h"
+#include "renderer/apps/texture_memory.h"
 #include "renderer/base/memory.h"
 #include "renderer/session/build_plan.h"
 #include "scene_io/gltf.h"
@@ -14,7 +15,7 @@ namespace {
 struct InfoOptions {
   std::vector<std::string> scenes;
   LoadSettings load_settings;
-  std::string size, memory;
+  std::string size, memory, texture_memory;
 };
 
 /// What the render of the scene's first camera would take, with default settings; or why it cannot be.
@@ -36,7 +37,10 @@ int info(const InfoOptions& o) {
   if (!o.memory.empty()) set_memory_limit(parse_bytes("--memory", o.memory));
   memory_limit();
   std::vector<std::string> notes;
-  const Scene scene = load_scene(o.scenes, o.load_settings, notes);
+  const std::unique_ptr<ImageMemory> images = make_image_memory(o.texture_memory);
+  LoadSettings settings = o.load_settings;
+  settings.image_memory = images.get();
+  const Scene scene = load_scene(o.scenes, settings, notes);
   const World world = make_world(scene);
   fmt::print("{}", describe(scene, world));
   fmt::print("{:<12} {}\n", "rendering", describe_memory(scene, world, o));
@@ -56,6 +60,7 @@ Command add_info_command(CLI::App& app) {
   c.add_option("--memory", o.memory,
                "Memory to stay below, as 8G or 500M; what the machine has free by default")
       ->type_name("BYTES");
+  add_texture_memory(c, o.texture_memory);
   add_at_option(c, o.load_settings.at);
   return [options] { return info(*options); };
 }

@@ -14,6 +14,7 @@
 #include "renderer/apps/progress_bar.h"
 #include "renderer/apps/sizes.h"
 #include "renderer/apps/stats.h"
+#include "renderer/apps/texture_memory.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/base/memory.h"
@@ -29,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 struct RenderOptions {
   std::vector<std::string> scenes;
-  std::string output, display, view, size, camera, environment, stats, checkpoint, resume, memory;
+  std::string output, display, view, size, camera, environment, stats, checkpoint, resume;
+  std::string memory, texture_memory;
   std::string integrator = "path";
   std::optional<std::string> tiles;
   std::vector<std::string> layers;
@@ -166,14 +168,18 @@ void check_outputs(const RenderOptions& o) {
 }
 
 /// The scene to render; `notes` holds what it lacks and what was skipped.
-std::shared_ptr<const Scene> load(const RenderOptions& o, PhaseLine& phases,
+std::shared_ptr<const Scene> load(const RenderOptions& o, PhaseLine& phases, ImageMemory* memory,
                                   std::vector<std::string>& notes) {
+  Image environment;
+  if (!o.environment.empty()) environment = read_image(o.environment);
+  if (memory) memory->keep(image_bytes(environment), o.environment);
   LoadSettings settings = o.load_settings;
   settings.on_phase = std::ref(phases);
+  settings.image_memory = memory;
   auto scene = std::make_shared<Scene>(load_scene(o.scenes, settings, notes));
   if (!o.environment.empty()) {
     scene->environment = {Rgb(1, 1, 1), int(scene->images.size()), Quatf(1, 0, 0, 0)};
-    scene->images.push_back(read_image(o.environment));
+    scene->images.push_back(std::move(environment));
   }
   for (const std::string& note : add_missing_camera_and_light(*scene)) notes.push_back(note);
   return scene;
@@ -196,14 +202,20 @@ std::string checkpoint_key(const RenderOptions& o) {
       s.layers.variance, s.layers.sample_count, s.layers.features);
 }
 
-/// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted.
-bool run(Session& session, const RenderOptions& o, const std::string& key) {
+/// Renders to the end, to an interruption, or to the end of the time; true if it was interrupted. Throws
+/// InputError as soon as texels cannot be read: what comes then is not the picture of the scene.
+bool run(Session& session, const RenderOptions& o, const std::string& key, const ImageMemory* memory) {
   constexpr double kCheckpointInterval = 60;  // seconds
+  const auto check_images = [&] {
+    if (memory)
+      if (const std::string error = memory->error(); !error.empty()) throw std::runtime_error(error);
+  };
   ProgressBar bar(o.quiet);
   double next_checkpoint = kCheckpointInterval;
   session.start();
   while (session.progress().running && !interrupted) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    check_images();
     bar.show(session);
     if (!o.checkpoint.empty() && session.progress().seconds > next_checkpoint) {
       write_checkpoint(o.checkpoint, key, session.film());
@@ -213,6 +225,7 @@ bool run(Session& session, const RenderOptions& o, const std::string& key) {
   if (interrupted) session.cancel();
   bar.finish();
   session.wait();
+  check_images();
   if (!o.checkpoint.empty()) write_checkpoint(o.checkpoint, key, session.film());
   return interrupted;
 }
@@ -247,7 +260,8 @@ int render(RenderOptions o) {
   Clock::time_point clock = Clock::now();
   std::vector<std::string> notes;
   PhaseLine phases(o.quiet);
-  const std::shared_ptr<const Scene> scene = load(o, phases, notes);
+  const std::unique_ptr<ImageMemory> memory = make_image_memory(o.texture_memory);
+  const std::shared_ptr<const Scene> scene = load(o, phases, memory.get(), notes);
   const std::vector<CameraPlacement> cameras = place_cameras(*scene);
   o.settings.camera = find_camera(*scene, cameras, o.camera);
   if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
@@ -269,13 +283,18 @@ int render(RenderOptions o) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   seconds.first_ray = process_seconds();
-  const bool stopped = run(session, o, key);
+  const bool stopped = run(session, o, key, memory.get());
   seconds.render = lap(clock);
 
   write_pictures(session, o, seconds.render);
   seconds.write = lap(clock);
   const SessionStats stats = session.stats();
-  if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, session.film()));
+  if (!o.stats.empty()) {
+    ImageMemoryStatistics images;
+    if (memory) images = memory->statistics();
+    for (const Image& image : scene->images) images.memory_bytes += memory ? 0 : image.pixels.bytes();
+    write_file(o.stats, stats_json(stats, seconds, session.film(), images));
+  }
   if (stats.rays.dropped > 0)
     fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n",
                stats.rays.dropped, stats.rays.camera);
@@ -359,6 +378,7 @@ Command add_render_command(CLI::App& app) {
       ->type_name("rows|columns|SIZE");
   add_choice(c, "--partitioner", o.settings.partitioner, kPartitioners,
              "How tiles are dealt to threads [simple]");
+  add_texture_memory(c, o.texture_memory);
   c.add_option("--seed", o.settings.seed, "Seed of the random sequence [0]");
   c.add_option("--stats", o.stats, "JSON to write what the render cost to")->type_name("FILE.json");
   c.add_option("--checkpoint", o.checkpoint,

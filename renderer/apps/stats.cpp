@@ -26,7 +26,8 @@ double process_seconds() {
          std::strtod(field.c_str(), nullptr) / double(sysconf(_SC_CLK_TCK));
 }
 
-std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const Film& film) {
+std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const Film& film,
+                       const ImageMemoryStatistics& images) {
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0.0; };
   constexpr const char* kQualities[] = {"fast", "balanced", "best"};
   const Noise noise = film.noise();  // what is not finite becomes null
@@ -54,6 +55,12 @@ std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const
       {"compact", s.compact},
       {"acceleration_bytes", s.accel_bytes},
       {"acceleration_bytes_per_triangle", ratio(double(s.accel_bytes), double(s.triangles))},
+      {"images",
+       {{"memory_bytes", images.memory_bytes},
+        {"file_bytes", images.cache.file_bytes},
+        {"cache_bytes", images.cache_bytes},
+        {"cache_peak_bytes", images.cache.peak_bytes},
+        {"tile_reads", images.cache.tile_reads}}},
       {"peak_memory_bytes", peak_memory()},
       {"predicted_peak_memory_bytes", s.predicted_peak},
   };

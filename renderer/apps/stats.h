@@ -4,6 +4,7 @@
 #include <string>
 
 #include "renderer/session/session.h"
+#include "scene_io/image_memory.h"
 
 namespace parian {
 
@@ -16,7 +17,8 @@ struct PhaseSeconds {
 double process_seconds();
 
 /// As JSON: seconds per phase, CPU seconds of the render, samples and noise, rays by kind, camera paths per
-/// CPU second, bytes.
-std::string stats_json(const SessionStats& stats, const PhaseSeconds& seconds, const Film& film);
+/// CPU second, bytes, those of images apart.
+std::string stats_json(const SessionStats& stats, const PhaseSeconds& seconds, const Film& film,
+                       const ImageMemoryStatistics& images);
 
 }  // namespace parian

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "renderer/base/shared_array.h"
 
 namespace parian {
+
+class TexelSource;
 
 /// Where an index may be absent.
 inline constexpr int kNone = -1;
@@ -26,8 +29,14 @@ struct Image {
   int width = 0, height = 0, channels = 0;
   PixelType type = PixelType::u8;
   SharedArray<std::byte> pixels;
-  bool operator==(const Image&) const = default;
+  std::shared_ptr<const TexelSource> source = nullptr;  // where the texels are if `pixels` is empty
+  /// Of the same name, size and type, and bitwise equal texels, wherever they are.
+  bool operator==(const Image& other) const;
 };
+
+/// What one pixel takes, and all of them.
+std::size_t pixel_bytes(const Image& image);
+std::size_t image_bytes(const Image& image);
 
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 enum class Filter : std::uint8_t { nearest, linear };

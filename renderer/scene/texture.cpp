@@ -2,6 +2,8 @@
 
 #include <Imath/half.h>
 
+#include "renderer/scene/texel_source.h"
+
 namespace parian {
 namespace {
 
@@ -17,12 +19,11 @@ struct SrgbTable {
 
 const SrgbTable kSrgb;
 
-/// Calls use(color, alpha) with the functions that decode colour and alpha element i of the image, so that
-/// the choice of the type is made once for all texels of a lookup.
+/// Calls use(color, alpha) with the functions that decode colour and alpha element i of `data`, so that the
+/// choice of the type is made once for all texels of a lookup.
 template <class Use>
-Vec4f with_decoder(const Image& image, ColorSpace space, const Use& use) {
-  const std::byte* data = image.pixels.data();
-  switch (image.type) {
+Vec4f with_decoder(PixelType type, const std::byte* data, ColorSpace space, const Use& use) {
+  switch (type) {
     case PixelType::u8: {
       const auto* p = reinterpret_cast<const std::uint8_t*>(data);
       const auto linear = [p](std::size_t i) { return float(p[i]) * (1.0f / 255); };
@@ -113,11 +114,30 @@ Between between_texels(float x, int size, Wrap wrap) {
   return {wrap_index(i, size, wrap), wrap_index(i + 1, size, wrap), x - 0.5f - float(i)};
 }
 
+constexpr std::size_t kLargestPixel = 4 * sizeof(float);
+
+/// The four pixels of a linear lookup, one after the other, of an image that is not in memory.
+const std::byte* fetch_corners(const Image& image, const Between& s, const Between& t, std::byte* out) {
+  const std::array<Vec2i, 4> places{Vec2i(s.first, t.first), Vec2i(s.second, t.first),
+                                    Vec2i(s.first, t.second), Vec2i(s.second, t.second)};
+  image.source->fetch(places, out);
+  return out;
+}
+
 }  // namespace
 
 Vec4f texel(const Image& image, int x, int y, ColorSpace space) {
-  return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
-    return decode(image, element_index(image, x, y), color, alpha);
+  const std::byte* data = image.pixels.data();
+  std::size_t element = element_index(image, x, y);
+  alignas(float) std::byte fetched[kLargestPixel];
+  if (!data) [[unlikely]] {
+    const Vec2i place(x, y);
+    image.source->fetch({&place, 1}, fetched);
+    data = fetched;
+    element = 0;
+  }
+  return with_decoder(image.type, data, space, [&](const auto& color, const auto& alpha) {
+    return decode(image, element, color, alpha);
   });
 }
 
@@ -129,12 +149,18 @@ Vec4f eval_texture(const Scene& scene, const Texture& texture, const Vec2f& uv, 
                  wrap_index(floor_to_int(y), image.height, texture.wrap_t), space);
   const Between s = between_texels(x, image.width, texture.wrap_s),
                 t = between_texels(y, image.height, texture.wrap_t);
-  const std::array<std::size_t, 4> corners{
+  std::array<std::size_t, 4> corners{
       element_index(image, s.first, t.first), element_index(image, s.second, t.first),
       element_index(image, s.first, t.second), element_index(image, s.second, t.second)};
   const Vec4f weights((1 - s.share) * (1 - t.share), s.share * (1 - t.share), (1 - s.share) * t.share,
                       s.share * t.share);
-  return with_decoder(image, space, [&](const auto& color, const auto& alpha) {
+  const std::byte* data = image.pixels.data();
+  alignas(float) std::byte fetched[4 * kLargestPixel];
+  if (!data) [[unlikely]] {
+    data = fetch_corners(image, s, t, fetched);
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = i * image.channels;
+  }
+  return with_decoder(image.type, data, space, [&](const auto& color, const auto& alpha) {
     return decode_mean(image, corners, weights, color, alpha);
   });
 }

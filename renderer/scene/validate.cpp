@@ -11,9 +11,7 @@ namespace {
 void check_image(const Image& image, const std::string& where, const Check& check) {
   if (image.width < 1 || image.height < 1) check.fail(where, "expected a size of at least 1 x 1");
   if (image.channels < 1 || image.channels > 4) check.fail(where, "expected 1 to 4 channels");
-  const std::size_t bytes = image.type == PixelType::u8 ? 1 : image.type == PixelType::f32 ? 4 : 2;
-  const std::size_t expected =
-      std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels) * bytes;
+  const std::size_t expected = image.source ? 0 : image_bytes(image);
   if (image.pixels.size() != expected)
     check.fail(where + "/pixels", fmt::format("expected {} bytes", expected));
 }

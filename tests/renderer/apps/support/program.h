@@ -52,6 +52,14 @@ class Program {
   }
   void send(int signal) const { kill(pid_, signal); }
 
+  /// Empties what the program has open of `folder`, named or not.
+  void truncate_open_file(const std::string& folder) const {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd")) {
+      const bool is_in_folder = std::filesystem::read_symlink(entry).string().starts_with(folder);
+      EXPECT_EQ(is_in_folder ? truncate(entry.path().c_str(), 0) : 0, 0);
+    }
+  }
+
   /// Waits for the end, two minutes at most.
   Outcome finish() const {
     int status = 0;

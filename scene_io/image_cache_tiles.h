@@ -1,0 +1,91 @@
+/// The part of ImageCache that OpenImageIO sees.
+#pragma once
+
+#include <OpenImageIO/imagecache.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+#include "scene_io/image_cache.h"
+#include "scene_io/tile_file.h"
+
+namespace parian {
+
+class ImageTiles;
+
+/// An image in the file: tiles row by row, each kTile x kTile pixels, also at the edges.
+struct TiledImage {
+  static constexpr int kTile = 64;  // 16 kB of 8-bit RGBA
+
+  explicit TiledImage(const Image& image);
+  int across() const { return (spec.width + kTile - 1) / kTile; }
+  int down() const { return (spec.height + kTile - 1) / kTile; }
+  int index(int x, int y) const { return y / kTile * across() + x / kTile; }
+  std::size_t tile_bytes() const { return std::size_t(kTile) * kTile * pixel_bytes; }
+
+  ImageTiles* tiles = nullptr;
+  OIIO::ImageSpec spec;
+  std::size_t pixel_bytes;
+  std::uint64_t offset = 0;  // in the file
+  int number = 0;
+  OIIO::ImageCache::ImageHandle* handle = nullptr;
+};
+
+/// The tiles that a thread used last. Those that it finds here it need not ask the cache for, which takes a
+/// lock and counts references; the cache counts them as memory all the same.
+struct ThreadTiles {
+  struct Slot {
+    const TiledImage* image = nullptr;
+    int index = 0;
+    OIIO::ImageCache::Tile* tile = nullptr;
+    const std::byte* pixels = nullptr;
+  };
+  std::array<Slot, 16> slots;
+  OIIO::ImageCache::Perthread* info = nullptr;
+};
+
+class ImageTiles {
+ public:
+  ImageTiles();
+  ~ImageTiles();
+  ImageTiles(const ImageTiles&) = delete;
+  ImageTiles& operator=(const ImageTiles&) = delete;
+
+  void limit(std::size_t bytes);
+  const TiledImage& add(const Image& image);
+  void fetch(const TiledImage& image, std::span<const Vec2i> places, std::byte* out);
+
+  /// The tile at pixel (x, y), from the file. Where that cannot be read it is black.
+  void read_tile(const TiledImage& image, int x, int y, void* out);
+
+  ImageCacheStatistics statistics() const;
+  std::string error() const;
+
+ private:
+  void write(const TiledImage& tiled, const Image& image);
+  ThreadTiles& of_this_thread();
+  const std::byte* find_tile(const TiledImage& image, ThreadTiles& mine, const Vec2i& p);
+  void fail(const std::string& what);
+  std::size_t memory_used() const;
+  void await_room() const;
+
+  const std::uint64_t serial_;
+  TileFile file_;
+  OIIO::ImageCache* cache_;
+  std::size_t limit_ = 0, slot_mask_ = 0;
+  std::atomic<std::uint64_t> file_bytes_{0}, tile_reads_{0};
+  std::atomic<std::size_t> peak_bytes_{0};
+  mutable std::mutex mutex_;  // of what follows
+  std::string error_;
+  std::unordered_map<std::thread::id, std::unique_ptr<ThreadTiles>> threads_;
+  std::vector<std::unique_ptr<TiledImage>> images_;
+};
+
+}  // namespace parian
