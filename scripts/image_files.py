@@ -14,15 +14,24 @@ Shader = Callable[[float, float], Texel]
 
 def png(width: int, height: int, channels: int, shader: Shader) -> bytes:
     """An 8-bit PNG of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the shader returns stored values in [0, 1]."""
-    color_type = {1: 0, 3: 2, 4: 6}[channels]
-    rows = bytearray()
+    pixels = bytearray()
     for y in range(height):
-        rows.append(0)  # this row's filter: none
         for x in range(width):
             texel = shader((x + 0.5) / width, (y + 0.5) / height)
-            rows.extend(int(min(max(c, 0.0), 1.0) * 255 + 0.5) for c in texel[:channels])
+            pixels.extend(int(min(max(c, 0.0), 1.0) * 255 + 0.5) for c in texel[:channels])
+    return png_of_bytes(width, height, channels, pixels)
+
+
+def png_of_bytes(width: int, height: int, channels: int, pixels: bytes, effort: int = 9) -> bytes:
+    """The same of the stored bytes, row by row; effort: zlib's, 1 to 9."""
+    stride = width * channels
+    rows = bytearray()
+    for begin in range(0, height * stride, stride):
+        rows.append(0)  # this row's filter: none
+        rows += pixels[begin : begin + stride]
+    color_type = {1: 0, 3: 2, 4: 6}[channels]
     header = struct.pack(">IIBBBBB", width, height, 8, color_type, 0, 0, 0)
-    chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(bytes(rows), 9)), (b"IEND", b"")]
+    chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(bytes(rows), effort)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(_png_chunk(*chunk) for chunk in chunks)
 
 
