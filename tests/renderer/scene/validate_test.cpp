@@ -49,7 +49,7 @@ Scene good_scene() {
   scene.nodes[2].shape = scene.nodes[2].shape_material = 0;
   scene.nodes[0].children = {1};
   scene.nodes[1].mesh = scene.nodes[1].camera = scene.nodes[1].light = 0;
-  scene.nodes[1].instances = instances({{}, {}});
+  scene.nodes[1].instances = instances({Transform(), Transform()});
   scene.nodes[2].transform.matrix = Imath::M44f();
   scene.roots = {0, 2};
   return scene;
@@ -328,7 +328,7 @@ TEST(Validate, RefusesBadNodes) {
       {[](Scene& s) { (*s.nodes[2].transform.matrix)[3][0] = kNan; }, "/nodes/2/transform/matrix"},
       {[](Scene& s) { (*s.nodes[2].transform.matrix)[0][3] = 1; }, "/nodes/2/transform/matrix"},
       {[](Scene& s) {
-         s.nodes[1].instances = instances({{}, scale({kNan, 1, 1})});
+         s.nodes[1].instances = instances({Transform(), scale({kNan, 1, 1})});
        },
        "/nodes/1/instances/1/scale"},
       {[](Scene& s) { s.nodes[1].mesh = 1; }, "/nodes/1/mesh"},
