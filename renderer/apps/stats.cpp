@@ -38,6 +38,8 @@ std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const
       {"solids", s.solids},
       {"acceleration_bytes", s.accel_bytes},
       {"acceleration_bytes_per_triangle", ratio(double(s.accel_bytes), double(s.triangles))},
+      {"light_bytes", s.light_bytes},
+      {"light_build_seconds", s.light_build_seconds},
       {"peak_memory_bytes", peak_memory_bytes()},
   };
   return json.dump(2) + "\n";
