@@ -55,6 +55,8 @@ std::string stats_json(const SessionStats& s, const PhaseSeconds& seconds, const
       {"compact", s.compact},
       {"acceleration_bytes", s.accel_bytes},
       {"acceleration_bytes_per_triangle", ratio(double(s.accel_bytes), double(s.triangles))},
+      {"light_bytes", s.light_bytes},
+      {"light_build_seconds", s.light_build_seconds},
       {"images",
        {{"memory_bytes", images.memory_bytes},
         {"file_bytes", images.cache.file_bytes},

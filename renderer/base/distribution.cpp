@@ -1,20 +1,49 @@
 #include "renderer/base/distribution.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/base/parallel.h"
 
 namespace parian {
+namespace {
+
+// What is done for each weight is dealt to threads by this number of weights.
+constexpr std::size_t kBlock = 4096;
+
+}  // namespace
 
 Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.size() + 1) {
-  for (float w : weights) total_ += w;
-  double sum = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum += total_ > 0 ? weights[i] / total_ : 1.0 / double(weights.size());
-    cdf_[i + 1] = float(std::min(sum, 1.0));
+  // Sums over blocks, added up in their order: the same bits for any number of threads.
+  const std::size_t count = weights.size(), blocks = (count + kBlock - 1) / kBlock;
+  std::vector<double> sums(blocks);
+  const auto for_each_block = [&](const auto& body) {
+    parallel_for(blocks, 1, [&](std::size_t k) { body(k, k * kBlock, std::min(count, (k + 1) * kBlock)); });
+  };
+  const auto share = [&](std::size_t i) { return total_ > 0 ? weights[i] / total_ : 1.0 / double(count); };
+  for_each_block([&](std::size_t k, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) sums[k] += weights[i];
+  });
+  for (const double sum : sums) total_ += sum;
+  if (blocks > 1) {
+    for_each_block([&](std::size_t k, std::size_t first, std::size_t last) {
+      sums[k] = 0;
+      for (std::size_t i = first; i < last; ++i) sums[k] += share(i);
+    });
+    double before = 0;
+    for (double& sum : sums) before += std::exchange(sum, before);
+  } else {
+    std::ranges::fill(sums, 0.0);
   }
+  for_each_block([&](std::size_t k, std::size_t first, std::size_t last) {
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      sum += share(i);
+      cdf_[i + 1] = float(std::min(sums[k] + sum, 1.0));
+    }
+  });
   // Rounding must not leave a gap below 1; it goes to the last index that has any weight.
-  for (std::size_t i = weights.size(); i > 0; --i) {
+  for (std::size_t i = count; i > 0; --i) {
     cdf_[i] = 1;
     if (total_ == 0 || weights[i - 1] > 0) break;
   }
@@ -23,10 +52,12 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
     std::copy(cdf_.begin() + 1, cdf_.end(), few_.begin());
     return;
   }
-  guide_.reserve(cdf_.size());
-  for (std::size_t k = 0; k < cdf_.size(); ++k)
-    guide_.push_back(
-        std::uint32_t(search(float(double(k) / size()), k == 0 ? 0 : int(guide_.back()), size() - 1)));
+  guide_.resize(cdf_.size());
+  parallel_for((guide_.size() + kBlock - 1) / kBlock, 1, [&](std::size_t block) {
+    int first = 0;
+    for (std::size_t k = block * kBlock; k < std::min(guide_.size(), (block + 1) * kBlock); ++k)
+      guide_[k] = std::uint32_t(first = search(float(double(k) / size()), first, size() - 1));
+  });
 }
 
 /// The last index from `first` to `last` whose sum is at most u, by halving.

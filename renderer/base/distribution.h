@@ -19,6 +19,11 @@ class Distribution1D {
 
   int size() const { return int(cdf_.size()) - 1; }
   double total() const { return total_; }
+  std::size_t bytes() const { return (cdf_.capacity() + guide_.capacity()) * sizeof(float); }
+  /// What bytes() is for so many weights.
+  static std::size_t predicted_bytes(std::size_t weights) {
+    return (weights + 1) * sizeof(float) * (weights <= kFew ? 1 : 2);
+  }
   /// The probability of index i, as sampled: the difference of the stored sums.
   float probability(int i) const { return cdf_[i + 1] - cdf_[i]; }
 

@@ -14,8 +14,9 @@ double importance(const InfiniteLight& light, const Receiver& to) {
 
 }  // namespace
 
-LightChooser::LightChooser(std::span<const LightBounds> bounds, std::vector<InfiniteLight> infinite)
-    : by_place_(true), tree_(bounds), infinite_(std::move(infinite)) {
+LightChooser::LightChooser(std::size_t count, const std::function<LightBounds(std::size_t)>& bounds_of,
+                           std::vector<InfiniteLight> infinite)
+    : by_place_(true), tree_(count, bounds_of), infinite_(std::move(infinite)) {
   std::erase_if(infinite_, [](const InfiniteLight& light) { return !(light.irradiance > 0); });
 }
 

@@ -28,8 +28,10 @@ class LightChooser {
   LightChooser() = default;
   /// In proportion to the weights, wherever the receiver is.
   explicit LightChooser(std::span<const float> weights) : distribution_(weights) {}
-  /// By what lights may send to the receiver. All have bounds; those in `infinite` are of no intensity.
-  LightChooser(std::span<const LightBounds> bounds, std::vector<InfiniteLight> infinite);
+  /// By what lights may send to the receiver. All have bounds, which bounds_of(i) gives as LightTree asks;
+  /// those in `infinite` are of no intensity.
+  LightChooser(std::size_t count, const std::function<LightBounds(std::size_t)>& bounds_of,
+               std::vector<InfiniteLight> infinite);
 
   struct Choice {
     int light;
@@ -49,6 +51,9 @@ class LightChooser {
   }
 
   const LightTree& tree() const { return tree_; }
+  std::size_t bytes() const {
+    return distribution_.bytes() + tree_.bytes() + infinite_.capacity() * sizeof(InfiniteLight);
+  }
 
  private:
   Choice choose_by_place(const Receiver& to, double u) const;

@@ -9,10 +9,6 @@ namespace {
 // the point.
 constexpr int kMaxLightsForOneNumber = 64;
 
-// Up to this many lights are chosen by their power: it takes 25 ns for a sample and 5 for a density where the
-// tree takes 60 and 30, and so few leave it little to gain.
-constexpr int kMaxLightsByPower = 4;
-
 /// A density that a light touching its receiver, or seen edge on, makes infinite or zero is no sample.
 bool usable(float pdf) { return pdf > 0 && pdf < kInfinity; }
 
@@ -32,196 +28,7 @@ std::optional<LightSample> area_sample(const Vec3f& p, const Vec3f& point, const
   return LightSample{wi, Rgb(0, 0, 0), pdf, false, false, point + normal * std::copysign(offset, cosine)};
 }
 
-std::array<Vec2f, 2> solid_uvs(const PlacedSolid& placed, const SurfaceSample& point) {
-  const Vec2f uv = surface_point(placed.solid, point.p, point.face).uv;
-  return {uv, uv};
-}
-
 }  // namespace
-
-LightTable::LightTable(const Scene& scene, const World& world, LightChoice choice)
-    : scene_(&scene), world_(&world), environment_(scene) {
-  bool emissive = false;
-  for (const Part& part : world.parts) emissive |= part.emissive;
-  if (emissive) {
-    first_triangle_.reserve(world.slot_count);
-    for (const Placement& placement : world.placements) add_placement(placement);
-  }
-  add_solids();
-  first_solid_ = int(triangles_.size());
-  first_area_ = first_solid_ + int(solids_.size());
-  first_punctual_ = first_area_ + int(world.area_lights.size());
-  environment_index_ = first_punctual_ + int(world.punctual_lights.size());
-  count_ = environment_index_ + (environment_.black() ? 0 : 1);
-  if (count_ > 1) chooser_ = make_chooser(choice);
-}
-
-LightChooser LightTable::make_chooser(LightChoice choice) const {
-  std::vector<float> weights = powers();
-  if (choice == LightChoice::tree && count_ > kMaxLightsByPower)
-    return {all_bounds(weights), infinite_lights()};
-  if (choice == LightChoice::uniform)
-    for (float& weight : weights) weight = weight > 0 ? 1 : 0;
-  return LightChooser(weights);
-}
-
-void LightTable::add_placement(const Placement& placement) {
-  for (std::uint32_t i = 0; i < placement.part_count; ++i) {
-    first_triangle_.push_back(std::uint32_t(triangles_.size()));
-    const Part& part = world_->parts[placement.first_part + i];
-    if (!part.emissive) continue;
-    const Affine& m = placement.to_world;
-    for (std::uint32_t k = 0; k < part.primitive->triangles.size(); ++k) {
-      const Triangle& t = part.primitive->triangles[k];
-      const Vec3f &a = part.primitive->positions[t[0]], &b = part.primitive->positions[t[1]],
-                  &c = part.primitive->positions[t[2]];
-      const Vec3f normal = m.normal((b - a).cross(c - a));
-      EmissiveTriangle e{m.point(a), m.vector(b - a), m.vector(c - a), normal.normalized(), 0, 0, &part, k};
-      e.area = 0.5f * e.e1.cross(e.e2).length();
-      e.offset = plane_offset(placement.extent(max_component(max(abs(a), max(abs(b), abs(c))))));
-      triangles_.push_back(e);
-    }
-  }
-}
-
-void LightTable::add_solids() {
-  for (std::uint32_t i = 0; i < world_->solids.size(); ++i) {
-    if (!world_->solid_parts[world_->solids[i].part].emissive) continue;
-    solid_lights_.resize(world_->solids.size());
-    solid_lights_[i] = std::uint32_t(solids_.size());
-    solids_.push_back(i);
-  }
-}
-
-/// Mean luminance of a material's emission over a surface, whose point for u in the unit square has the
-/// coordinates uvs_at(u).
-template <class UvsAt>
-float LightTable::mean_emission(const Material& material, const UvsAt& uvs_at) const {
-  Rgb mean = material.emission;
-  if (material.emission_texture) {
-    // Sixteen points estimate the texture's mean; a tenth of the factor keeps what they miss from being
-    // starved.
-    mean *= 0.1f;
-    for (int i = 0; i < 16; ++i) {
-      const Vec2f u((float(i) + 0.5f) / 16, to_unit_float(reverse_bits(std::uint32_t(i))));
-      mean += eval_emission(*scene_, material, uvs_at(u), 1) * (0.9f / 16);
-    }
-  }
-  return luminance(mean) * (material.double_sided ? 2 : 1);
-}
-
-float LightTable::power(const EmissiveTriangle& e) const {
-  const Triangle& t = e.part->primitive->triangles[e.triangle];
-  return kPi * e.area * mean_emission(*e.part->material, [&](const Vec2f& u) {
-           const Vec2f b = sample_triangle(u);
-           return interpolate_uvs(*e.part->primitive, t, b.x, b.y);
-         });
-}
-
-float LightTable::power(const PlacedSolid& placed) const {
-  const double world_area =
-      placed.is_round() ? area(Sphere{placed.round_radius}) : area(placed.solid, placed.to_world);
-  return kPi * float(world_area) *
-         mean_emission(*world_->solid_parts[placed.part].material,
-                       [&](const Vec2f& u) { return solid_uvs(placed, sample_surface(placed.solid, u)); });
-}
-
-float LightTable::power(const AreaLight& light) const {
-  const float area = 4 * light.half_x.length() * light.half_y.length() * (light.disk ? kPi / 4 : 1);
-  return luminance(light.radiance) * area * kPi;
-}
-
-float LightTable::power(const PunctualLight& light, float scene_radius) const {
-  switch (light.kind) {
-    case LightKind::directional:
-      return luminance(light.intensity) * kPi * scene_radius * scene_radius;
-    case LightKind::spot:
-      return luminance(light.intensity) * 2 * kPi * (1 - 0.5f * (light.cos_inner + light.cos_outer));
-    default:
-      return luminance(light.intensity) * 4 * kPi;
-  }
-}
-
-std::vector<float> LightTable::powers() const {
-  const float radius = world_->bounds.isEmpty() ? 1 : 0.5f * world_->bounds.size().length();
-  std::vector<float> powers;
-  powers.reserve(std::size_t(count_));
-  for (const EmissiveTriangle& t : triangles_) powers.push_back(power(t));
-  for (const std::uint32_t solid : solids_) powers.push_back(power(world_->solids[solid]));
-  for (const AreaLight& light : world_->area_lights) powers.push_back(power(light));
-  for (const PunctualLight& light : world_->punctual_lights) powers.push_back(power(light, radius));
-  if (!environment_.black())
-    powers.push_back(environment_.mean_luminance() * 4 * kPi * kPi * radius * radius);
-  return powers;
-}
-
-LightBounds LightTable::bounds(const EmissiveTriangle& e, float power) const {
-  LightBounds bounds;
-  for (const Vec3f& vertex : {e.v0, e.v0 + e.e1, e.v0 + e.e2}) bounds.box.extendBy(vertex);
-  bounds.axis = e.ng;
-  bounds.two_sided = e.part->material->double_sided;
-  bounds.intensity = power * (bounds.two_sided ? 0.5f : 1) * kInvPi;
-  return bounds;
-}
-
-LightBounds LightTable::bounds(const PlacedSolid& placed, float power) const {
-  // Convex: its mean projected area is a quarter of the surface (Cauchy). Of light inside of it nothing is
-  // known but that it is there.
-  LightBounds bounds;
-  bounds.box = parian::bounds(placed.solid, placed.to_world);
-  bounds.cos_o = -1;
-  bounds.intensity = power * 0.25f * kInvPi;
-  return bounds;
-}
-
-LightBounds LightTable::bounds(const AreaLight& light, float power) const {
-  LightBounds bounds;
-  const Vec3f half = abs(light.half_x) + abs(light.half_y);
-  bounds.box = {light.center - half, light.center + half};
-  bounds.axis = light.normal;
-  bounds.intensity = power * kInvPi;
-  return bounds;
-}
-
-LightBounds LightTable::bounds(const PunctualLight& light) const {
-  LightBounds bounds;
-  if (light.kind == LightKind::directional) return bounds;
-  bounds.box = {light.position, light.position};
-  bounds.intensity = luminance(light.intensity);
-  if (light.range > 0) bounds.range = light.range;
-  bounds.cos_o = -1;
-  if (light.kind == LightKind::spot) {
-    // The angles from rounded cosines, and so with a margin.
-    bounds.axis = light.direction;
-    bounds.cos_o = light.cos_inner;
-    bounds.cos_e = std::cos(std::acos(light.cos_outer) - std::acos(light.cos_inner) + 1e-3f);
-  }
-  return bounds;
-}
-
-std::vector<LightBounds> LightTable::all_bounds(const std::vector<float>& powers) const {
-  std::vector<LightBounds> all;
-  all.reserve(powers.size());
-  const auto next_power = [&] { return powers[all.size()]; };
-  for (const EmissiveTriangle& t : triangles_) all.push_back(bounds(t, next_power()));
-  for (const std::uint32_t solid : solids_) all.push_back(bounds(world_->solids[solid], next_power()));
-  for (const AreaLight& light : world_->area_lights) all.push_back(bounds(light, next_power()));
-  for (const PunctualLight& light : world_->punctual_lights) all.push_back(bounds(light));
-  all.resize(powers.size());
-  return all;
-}
-
-std::vector<InfiniteLight> LightTable::infinite_lights() const {
-  std::vector<InfiniteLight> lights;
-  for (int i = first_punctual_; i < environment_index_; ++i) {
-    const PunctualLight& light = world_->punctual_lights[std::size_t(i - first_punctual_)];
-    if (light.kind == LightKind::directional)
-      lights.push_back({i, luminance(light.intensity), -light.direction});
-  }
-  if (!environment_.black())
-    lights.push_back({environment_index_, kPi * environment_.mean_luminance(), Vec3f(0)});
-  return lights;
-}
 
 std::optional<LightSample> LightTable::sample(const Receiver& to, Vec2f u, Sampler& sampler) const {
   const Vec3f& p = to.p;
@@ -235,7 +42,11 @@ std::optional<LightSample> LightTable::sample(const Receiver& to, Vec2f u, Sampl
     if (one_number) u.x = chosen.remainder;
     if (probability <= 0) return std::nullopt;
   }
-  if (light < first_solid_) return sample_emissive(triangles_[light], probability, p, u);
+  if (light < first_solid_) {
+    const auto records = triangles_.records();
+    if (!records.empty()) return sample_emissive(records[std::size_t(light)], probability, p, u);
+    return sample_emissive(triangles_.make(light), probability, p, u);
+  }
   if (light < first_area_)
     return sample_solid(world_->solids[solids_[light - first_solid_]], probability, p, u);
   if (light < first_punctual_)
@@ -261,6 +72,11 @@ std::optional<LightSample> LightTable::sample_emissive(const EmissiveTriangle& e
                                 std::abs(s->wi.dot(e.ng)));
   }
   return s;
+}
+
+std::array<Vec2f, 2> LightTable::solid_uvs(const PlacedSolid& placed, const SurfaceSample& point) {
+  const Vec2f uv = surface_point(placed.solid, point.p, point.face).uv;
+  return {uv, uv};
 }
 
 std::optional<LightSample> LightTable::sample_solid(const PlacedSolid& placed, float probability,
@@ -338,9 +154,8 @@ std::optional<LightSample> LightTable::sample_environment(float probability, con
 }
 
 float LightTable::pdf_triangle(const Hit& hit, const Receiver& to, float cosine) const {
-  const Placement& placement = world_->placements[hit.placement];
-  const int light = int(first_triangle_[placement.first_slot + hit.primitive] + hit.triangle);
-  return choice(to, light) * hit.t * hit.t / (triangles_[light].area * cosine);
+  const int light = triangles_.number(hit);
+  return choice(to, light) * hit.t * hit.t / (triangles_.area(hit, light) * cosine);
 }
 
 float LightTable::pdf_solid(const Hit& hit, const Receiver& to, float cosine) const {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "renderer/base/random.h"
+#include "renderer/light/emissive_triangles.h"
 #include "renderer/light/environment.h"
 #include "renderer/light/light_choice.h"
-#include "renderer/scene/surface.h"
 
 namespace parian {
 
@@ -32,6 +32,8 @@ class LightTable {
 
   bool empty() const { return count_ == 0; }
   int size() const { return count_; }
+  /// Memory of the lights and of the choice among them, but for the environment map's own density.
+  std::size_t bytes() const;
 
   /// Samples a light for a receiver, by u in [0,1)^2 and, where there are many lights, one more pair of
   /// numbers of the sampler. Nothing where the chosen light does not reach it.
@@ -52,29 +54,24 @@ class LightTable {
   const LightChooser& chooser() const { return chooser_; }
 
  private:
-  struct EmissiveTriangle {
-    Vec3f v0, e1, e2, ng;
-    float area, offset;
-    const Part* part;
-    std::uint32_t triangle;
-  };
-
-  void add_placement(const Placement& placement);
   void add_solids();
   LightChooser make_chooser(LightChoice choice) const;
+  /// The coordinates of a point of a solid, for each set.
+  static std::array<Vec2f, 2> solid_uvs(const PlacedSolid& placed, const SurfaceSample& point);
   template <class UvsAt>
-  float mean_emission(const Material& material, const UvsAt& uvs_at) const;
+  float mean_emission(const Material& material, int points, const UvsAt& uvs_at) const;
   float power(const EmissiveTriangle& emitter) const;
   float power(const PlacedSolid& solid) const;
   float power(const AreaLight& light) const;
   float power(const PunctualLight& light, float scene_radius) const;
+  float power(int light) const;
   std::vector<float> powers() const;
   // Those of lights that have no place are of no intensity.
-  LightBounds bounds(const EmissiveTriangle& emitter, float power) const;
-  LightBounds bounds(const PlacedSolid& solid, float power) const;
-  LightBounds bounds(const AreaLight& light, float power) const;
+  LightBounds bounds(const EmissiveTriangle& emitter) const;
+  LightBounds bounds(const PlacedSolid& solid) const;
+  LightBounds bounds(const AreaLight& light) const;
   LightBounds bounds(const PunctualLight& light) const;
-  std::vector<LightBounds> all_bounds(const std::vector<float>& powers) const;
+  LightBounds bounds(int light) const;
   std::vector<InfiniteLight> infinite_lights() const;
   // Samples of one light, which was chosen with `probability`.
   std::optional<LightSample> sample_emissive(const EmissiveTriangle& emitter, float probability,
@@ -92,14 +89,22 @@ class LightTable {
 
   const Scene* scene_ = nullptr;
   const World* world_ = nullptr;
-  std::vector<EmissiveTriangle> triangles_;
-  std::vector<std::uint32_t> first_triangle_;  // by slot; empty where no mesh emits
-  std::vector<std::uint32_t> solids_;          // those that emit, as indices into World::solids
-  std::vector<std::uint32_t> solid_lights_;    // by solid: its place in solids_; empty where none emits
+  EmissiveTriangles triangles_;
+  std::vector<std::uint32_t> solids_;        // those that emit, as indices into World::solids
+  std::vector<std::uint32_t> solid_lights_;  // by solid: its place in solids_; empty where none emits
   EnvironmentLight environment_;
   // Lights are numbered: triangles, solids, area lights, punctual lights, environment.
   int first_solid_ = 0, first_area_ = 0, first_punctual_ = 0, environment_index_ = 0, count_ = 0;
   LightChooser chooser_;
 };
+
+/// Bytes of a light table, and the most that building it takes on the way, that included.
+struct LightTableBytes {
+  std::size_t held = 0, peak = 0;
+};
+
+/// What LightTable::bytes() will be for a scene of that many emissive triangles of `slots` placed primitives
+/// that emit, to 10% where there are more than LightTree::kPacked. Other lights count as triangles.
+LightTableBytes light_table_bytes(std::size_t lights, LightChoice choice, std::size_t slots = 1);
 
 }  // namespace parian

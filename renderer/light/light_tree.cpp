@@ -17,6 +17,7 @@ constexpr float kAngleMargin = 1e-3f;
 // What can be reached weighs at least this much, whatever underflows.
 constexpr float kLeastWeight = 1e-37f;
 constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+constexpr float kStep = 1 / Node::kOne;
 
 float complement(float cosine) { return std::sqrt(std::max(0.0f, (1 - cosine) * (1 + cosine))); }
 
@@ -31,41 +32,55 @@ float cosine_of_difference(float cos_a, float cos_b, float sin_b) {
 /// square of the distance to the centre, which counts as the radius at least. 0 only where no light can reach
 /// it. Without branches, or it would not become vector code.
 PARIAN_VECTORIZE void weigh_children(const Node& node, const Receiver& to, Weights& weights) {
-  const Vec3f p = to.p, n = to.n;  // or they might change with the weights
-  const float both_sides = n == Vec3f(0) ? 1.0f : 0.0f;
+  const Vec3f p = node.origin - to.p, n = to.n;  // or they might change with the weights
+  const float cell = node.cell, both_sides = n == Vec3f(0) ? 1.0f : 0.0f;
   for (int i = 0; i < kWidth; ++i) {
-    const float x = node.center_x[i] - p.x, y = node.center_y[i] - p.y, z = node.center_z[i] - p.z;
+    const float x = p.x + low_number(node.center_xy[i]) * cell,
+                y = p.y + high_number(node.center_xy[i]) * cell,
+                z = p.z + low_number(node.center_z_radius[i]) * cell;
+    const float radius = high_short_float(node.center_z_radius[i]);
     const float d2 = std::max(x * x + y * y + z * z, 1e-30f), d = std::sqrt(d2), scale = 1 / d;
     // The angle that the sphere fills; from inside of it lights may be in any direction.
-    const float sine = node.radius[i] * scale + kAngleMargin;
+    const float sine = radius * scale + kAngleMargin;
     const float cos_size = sine >= 1 ? -1 : complement(sine), sin_size = sine >= 1 ? 0 : sine;
 
     // Between the axis and the receiver, less that of the cone and the size; where these add up to more than
     // 180 degrees, their sine is negative.
-    const float front = -scale * (node.axis_x[i] * x + node.axis_y[i] * y + node.axis_z[i] * z);
-    const float cos_axis = std::max(front, node.other_side[i] * front);
-    const float sin_sum = node.sin_o[i] * cos_size + node.cos_o[i] * sin_size;
-    const float cos_sum = sin_sum < 0 ? -1 : node.cos_o[i] * cos_size - node.sin_o[i] * sin_size;
+    const float along = low_signed(node.axis_xy[i]) * x + high_signed(node.axis_xy[i]) * y +
+                        low_signed(node.axis_z_cos_o[i]) * z;
+    const std::uint32_t sine_and_side = node.sin_o_cos_e[i];
+    const float front = -scale * kStep * along;
+    const float cos_axis = std::max(front, sine_and_side & Node::kTwoSided ? -front : front);
+    const float cos_o = high_signed(node.axis_z_cos_o[i]) * kStep,
+                sin_o = low_number(sine_and_side & ~Node::kTwoSided) * kStep;
+    const float sin_sum = sin_o * cos_size + cos_o * sin_size;
+    const float cos_sum = sin_sum < 0 ? -1 : cos_o * cos_size - sin_o * sin_size;
     const float at_light = cosine_of_difference(cos_axis, cos_sum, sin_sum);
 
     const float facing = scale * (n.x * x + n.y * y + n.z * z);
     const float at_receiver = std::max(cosine_of_difference(facing, cos_size, sin_size), both_sides);
 
-    const float spread = node.intensity[i] / std::max(d2, node.radius[i] * node.radius[i]);
+    const float spread = low_short_float(node.intensity_reach[i]) / std::max(d2, radius * radius);
     const float weight = std::max(spread * at_light * at_receiver, kLeastWeight);
-    const bool reached = (at_light > node.cos_e[i]) & (at_receiver > 0) & (d <= node.reach[i]);
+    const bool reached = (at_light > high_signed(sine_and_side) * kStep) & (at_receiver > 0) &
+                         (d <= high_short_float(node.intensity_reach[i]));
     weights[i] = reached ? weight : 0.0f;
   }
 }
 
-/// Weighs the children and returns the sums of the weights up to each. Where no light reaches the receiver,
-/// which the bounds of the parent did not show, children weigh alike.
+/// Weighs the children and returns the sums of the weights up to each, of both halves side by side. Where no
+/// light reaches the receiver, which the bounds of the parent did not show, children weigh alike.
 Node::Lanes<double> add_weights(const Node& node, const Receiver& to, Weights& weights) {
+  constexpr int kHalf = kWidth / 2;
   weigh_children(node, to, weights);
   Node::Lanes<double> sums;
-  double sum = 0;
-  for (int i = 0; i < kWidth; ++i) sums[i] = sum += double(weights[i]);
-  if (!(sum > 0))
+  double low = 0, high = 0;
+  for (int i = 0; i < kHalf; ++i) {
+    sums[i] = low += double(weights[i]);
+    sums[kHalf + i] = high += double(weights[kHalf + i]);
+  }
+  for (int i = kHalf; i < kWidth; ++i) sums[i] += low;
+  if (!(sums[kWidth - 1] > 0))
     for (int i = 0; i < kWidth; ++i) {
       weights[i] = std::uint32_t(i) < node.count ? 1.0f : 0.0f;
       sums[i] = std::min<double>(i + 1, node.count);
@@ -117,14 +132,15 @@ double LightTree::probability(const Receiver& to, int light) const {
 }
 
 int LightTree::depth() const {
-  const auto below = [&](const auto& self, std::uint32_t link) -> int {
-    if (link & Node::kLeaf) return 0;
-    int deepest = 0;
-    for (std::uint32_t i = 0; i < nodes_[link].count; ++i)
-      deepest = std::max(deepest, self(self, nodes_[link].link[i]));
-    return deepest + 1;
-  };
-  return empty() ? 0 : below(below, 0);
+  // Children come after their parents.
+  std::vector<int> depths(nodes_.size(), 1);
+  int deepest = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    deepest = std::max(deepest, depths[k]);
+    for (std::uint32_t i = 0; i < nodes_[k].count; ++i)
+      if (const std::uint32_t link = nodes_[k].link[i]; !(link & Node::kLeaf)) depths[link] = depths[k] + 1;
+  }
+  return deepest;
 }
 
 }  // namespace parian

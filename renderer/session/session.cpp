@@ -75,8 +75,11 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
 Session::~Session() { cancel(); }
 
 void Session::build_lights() {
+  const Clock::time_point start = Clock::now();
   lights_ = std::make_unique<LightTable>(*scene_, *world_, settings_.light_choice);
   ++stats_.light_builds;
+  stats_.light_bytes = lights_->bytes();
+  stats_.light_build_seconds = seconds_since(start);
 }
 
 void Session::start() {

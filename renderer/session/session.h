@@ -63,6 +63,8 @@ struct SessionStats {
   std::size_t accel_bytes = 0, triangles = 0, solids = 0;  // triangles as stored, each mesh once
   BuildCounts builds;
   int light_builds = 0;
+  std::size_t light_bytes = 0;     // of the light table
+  double light_build_seconds = 0;  // the last time that it was built
 };
 
 class Session {
