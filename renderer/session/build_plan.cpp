@@ -36,11 +36,25 @@ BuildQuality worthwhile_quality(const Scene& scene, const World& world, double r
   return copied > 0 && rays > kBestFrom * copied ? BuildQuality::best : BuildQuality::balanced;
 }
 
+LightTableBytes estimate_lights(const World& world, LightChoice choice) {
+  std::size_t lights = world.area_lights.size() + world.punctual_lights.size(), slots = 0;
+  for (const PlacedSolid& solid : world.solids) lights += world.solid_parts[solid.part].emissive;
+  for (const Placement& p : world.placements)
+    for (std::uint32_t i = p.first_part; i < p.first_part + p.part_count; ++i) {
+      if (!world.parts[i].emissive) continue;
+      lights += world.parts[i].primitive->triangles.size();
+      ++slots;
+    }
+  return light_table_bytes(lights, choice, std::max<std::size_t>(1, slots));
+}
+
 void estimate(BuildPlan& plan, const Scene& scene, const World& world) {
   plan.accel_memory = estimate_memory(scene, world, plan.accel);
-  // The film comes after the build.
-  plan.peak = std::max(peak_memory(), resident_memory() + std::max(plan.accel_memory.peak,
-                                                                   plan.accel_memory.held + plan.film));
+  // One after the other: the BVH, the lights, the film.
+  const std::size_t held = plan.accel_memory.held;
+  const std::size_t more =
+      std::max({plan.accel_memory.peak, held + plan.lights.peak, held + plan.lights.held + plan.film});
+  plan.peak = std::max(peak_memory(), resident_memory() + more);
 }
 
 }  // namespace
@@ -56,6 +70,7 @@ std::string BuildPlan::describe() const {
 BuildPlan plan_build(const Scene& scene, const World& world, const RenderSettings& settings) {
   BuildPlan plan;
   plan.accel = settings.accel;
+  plan.lights = estimate_lights(world, settings.light_choice);
   plan.film = Film::bytes(settings.width, settings.height, settings.layers);
   plan.accel.quality =
       settings.build ? *settings.build : worthwhile_quality(scene, world, expected_rays(settings));

@@ -10,6 +10,7 @@ struct BuildPlan {
   AccelSettings accel;
   // Bytes beside the scene and the world.
   AccelMemory accel_memory;
+  LightTableBytes lights;
   std::size_t film = 0;  // with the picture that is made of it
   std::size_t peak = 0;  // of the process, what it has now included
 
