@@ -62,9 +62,10 @@ void estimate(BuildPlan& plan, const Scene& scene, const World& world) {
 std::string BuildPlan::describe() const {
   constexpr const char* kNames[] = {"fast", "balanced", "best"};
   return fmt::format(
-      "about {} at the peak: {} acceleration structure ({}{}, {} while it is built), {} picture",
+      "about {} at the peak: {} acceleration structure ({}{}, {} while it is built), {} lights, {} picture",
       format_bytes(double(peak)), format_bytes(double(accel_memory.held)), kNames[std::size_t(accel.quality)],
-      accel.compact ? ", compact" : "", format_bytes(double(accel_memory.peak)), format_bytes(double(film)));
+      accel.compact ? ", compact" : "", format_bytes(double(accel_memory.peak)),
+      format_bytes(double(lights.held)), format_bytes(double(film)));
 }
 
 BuildPlan plan_build(const Scene& scene, const World& world, const RenderSettings& settings) {
