@@ -105,7 +105,8 @@ TEST_F(ImageMemoryTest, TheSceneIsTheSameWithinACap) {
   const Scene free = load(builder.glb());
   ASSERT_EQ(free.images.size(), 4u);
   ImageMemory memory(16 * kMiB);
-  const Scene capped = load_gltf(path("scene.glb"), {.on_phase = {}, .image_memory = &memory}, warnings);
+  settings.image_memory = &memory;
+  const Scene capped = load_gltf(path("scene.glb"), settings, warnings);
   EXPECT_EQ(free, capped);
   std::size_t cached = 0;
   for (const Image& image : capped.images) {

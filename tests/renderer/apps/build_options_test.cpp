@@ -91,7 +91,7 @@ TEST_F(BuildOptions, StaysBelowTheLimitOrSaysWhatItNeeds) {
   std::filesystem::remove(work("out.exr"));
   std::filesystem::remove(work("stats.json"));
   const std::set<std::string> before = files();
-  for (const std::string limit : {std::to_string(long(predicted - 35e6)), std::string("1M")}) {
+  for (const std::string& limit : {std::to_string(long(predicted - 35e6)), std::string("1M")}) {
     const Outcome outcome = render({"--memory", limit});
     EXPECT_EQ(outcome.code, 3) << limit;
     EXPECT_TRUE(outcome.err.find("not enough memory: ") != std::string::npos) << outcome.err;

@@ -137,11 +137,13 @@ TEST(PackedLights, InstancesAreLightsEach) {
   Scene scene;
   const Primitive dust = make_dust(100, {0, 3, 0}, random);
   add_mesh(scene, dust, add_material(scene, make_emitter(Rgb(1))));
+  std::vector<Transform> places;
   for (int i = 0; i < 100; ++i) {
     Transform place = translate({float(i % 10) - 4.5f, 0, float(i / 10) - 4.5f});
     place.scale = Vec3f(1 + 0.1f * float(i % 3));
-    scene.nodes[0].instances.push_back(place);
+    places.push_back(place);
   }
+  scene.nodes[0].instances = instances(places);
   const LitScene lit(scene);
   ASSERT_EQ(lit.table.size(), 10000);
   EXPECT_NEAR(double(lit.table.bytes()) / double(light_table_bytes(10000, LightChoice::tree, 100).held), 1,

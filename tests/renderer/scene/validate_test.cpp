@@ -8,6 +8,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/scene/scene.h"
+#include "tests/support/scenes.h"
 
 namespace parian {
 namespace {
