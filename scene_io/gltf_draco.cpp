@@ -146,9 +146,9 @@ class GatedDecoder final : public Decoder {
 SharedArray<std::byte> copy_corners(const draco::Mesh& mesh) {
   static_assert(sizeof(draco::Mesh::Face) == 3 * sizeof(std::uint32_t));
   const std::size_t bytes = mesh.num_faces() * sizeof(draco::Mesh::Face);
-  const auto owner = std::make_shared_for_overwrite<std::byte[]>(bytes);
-  if (bytes != 0) std::memcpy(owner.get(), &mesh.face(draco::FaceIndex(0)), bytes);
-  return {owner, owner.get(), bytes};
+  auto [corners, out] = make_shared_array<std::byte>(bytes);
+  if (bytes != 0) std::memcpy(out, &mesh.face(draco::FaceIndex(0)), bytes);
+  return corners;
 }
 
 /// Empty where the stream has no value for some vertex.
@@ -156,13 +156,13 @@ SharedArray<std::byte> copy_attribute(const draco::PointAttribute& attribute, st
   const std::size_t element = std::size_t(attribute.byte_stride());
   if (!attribute.is_mapping_identity() && attribute.indices_map_size() < count) return {};
   if (attribute.buffer()->data_size() < attribute.size() * element) return {};
-  const auto owner = std::make_shared_for_overwrite<std::byte[]>(count * element);
+  auto [elements, out] = make_shared_array<std::byte>(count * element);
   for (std::uint32_t i = 0; i < count; ++i) {
     const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(i));
     if (value.value() >= attribute.size()) return {};
-    std::memcpy(owner.get() + i * element, attribute.GetAddress(value), element);
+    std::memcpy(out + i * element, attribute.GetAddress(value), element);
   }
-  return {owner, owner.get(), count * element};
+  return elements;
 }
 
 /// What the library makes of the stream. False where it does not decode; the gate may say why.

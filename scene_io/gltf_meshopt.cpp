@@ -80,18 +80,18 @@ void decode(const GltfDocument& document, CompressedView& view) {
   }
   const std::size_t bytes = view.count * view.stride;
   // As integers, since filters want elements aligned.
-  const auto owner = std::make_shared_for_overwrite<std::uint64_t[]>((bytes + 7) / 8);
+  const auto [words, out] = make_shared_array<std::uint64_t>((bytes + 7) / 8);
   using Decoder = int (*)(void*, std::size_t, std::size_t, const unsigned char*, std::size_t);
   const Decoder decoder = view.mode == "ATTRIBUTES"  ? Decoder(meshopt_decodeVertexBuffer)
                           : view.mode == "TRIANGLES" ? Decoder(meshopt_decodeIndexBuffer)
                                                      : Decoder(meshopt_decodeIndexSequence);
-  if (decoder(owner.get(), view.count, view.stride, stream, view.bytes.size()) != 0) {
+  if (decoder(out, view.count, view.stride, stream, view.bytes.size()) != 0) {
     document.fail(view.where(),
                   fmt::format("expected a stream of {} elements of {} bytes, mode {}; it is broken",
                               view.count, view.stride, view.mode));
   }
-  apply_filter(view, owner.get());
-  view.decoded = {owner, reinterpret_cast<const std::byte*>(owner.get()), bytes};
+  apply_filter(view, out);
+  view.decoded = {words.owner(), reinterpret_cast<const std::byte*>(out), bytes, true};
 }
 
 }  // namespace

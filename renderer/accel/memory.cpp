@@ -19,7 +19,7 @@ struct Cost {
 Cost cost_of(bool quads, const AccelSettings& settings) {
   const bool fast = settings.quality == BuildQuality::fast;
   if (quads && fast) return settings.compact ? Cost{107, 8} : Cost{114, 6};
-  if (quads) return settings.compact ? Cost{41, 33} : Cost{84, 25};
+  if (quads) return settings.compact ? Cost{36.5, 37} : Cost{78, 30};
   if (fast) return settings.compact ? Cost{50, 10} : Cost{93, 9};
   return settings.compact ? Cost{37, 3} : Cost{65, 34};
 }

@@ -56,9 +56,10 @@ class TextureMemory : public ProgramTest {
     write_exr(picture, work(name));
   }
 
-  std::vector<std::string> render(const std::string& output, const std::vector<std::string>& more) const {
+  std::vector<std::string> render(const std::string& output, const std::vector<std::string>& more,
+                                  const std::string& spp = "4") const {
     std::vector<std::string> arguments{"render", scene_,  "-o", work(output), "--size",
-                                       "96x96",  "--spp", "4",  "--quiet"};
+                                       "96x96",  "--spp", spp,  "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -111,8 +112,8 @@ TEST_F(TextureMemory, RefusesWhatIsTooLittle) {
 // Caught: a picture with black texels that looks like any other, a render that goes on for nothing.
 TEST_F(TextureMemory, LostTexelsEndTheRender) {
   const std::set<std::string> before = files();
-  auto program = start(
-      render("out.exr", {"--texture-memory", "16MiB", "--spp", "1000000", "--checkpoint", work("state")}));
+  auto program =
+      start(render("out.exr", {"--texture-memory", "16MiB", "--checkpoint", work("state")}, "1000000"));
   bool is_loaded = false;
   for (int i = 0; i < 6 && !is_loaded; ++i) is_loaded = program->wait_for_handler(SIGTERM);
   ASSERT_TRUE(is_loaded);

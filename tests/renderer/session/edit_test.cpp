@@ -130,6 +130,7 @@ TEST(Session, EditsMatchFreshSessions) {
     for (const Edit& edit : edits()) {
       RenderSettings settings = small(4);
       settings.accel.editable = editable;
+      settings.build = BuildQuality::balanced;  // that of the best holds copies
       Scene edited = everything();
       edit.apply(edited);
       Session session = make_session(everything(), settings);
