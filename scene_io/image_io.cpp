@@ -29,8 +29,11 @@ using Bytes = std::span<const std::byte>;
 // A side longer than this is a broken header, not a picture.
 constexpr int kMaxSide = 65536;
 // Nothing is allocated from a size that a header merely claims: beyond kPlainBytes the decoded picture may be
-// at most kMaxExpansion times the file. Deflate, in PNG and EXR, expands at most 1032 times.
+// at most kMaxExpansion times the file. Deflate, in PNG and EXR, expands at most 1032 times, JPEG less; and
+// of both of these the libraries may hold the whole picture before they find that nothing is there
+// (interlaced, progressive), so that little is plain for them.
 constexpr std::size_t kPlainBytes = std::size_t(256) << 20;
+constexpr std::size_t kPlainBytesOfWhole = std::size_t(16) << 20;
 constexpr std::size_t kMaxExpansion = 1100;
 // Rows decoded at a time, so that memory is touched only as far as the file really goes.
 constexpr int kRowsAtOnce = 256;
@@ -66,10 +69,16 @@ std::string format_of(Bytes bytes, const std::string& name) {
   throw InputError(name, "", fmt::format("expected {}", kFormats));
 }
 
-// Whether a JPEG has its end. libjpeg fills what is missing with grey and only warns, and only once: not if
-// stray bytes before a marker came first. So walk the segments to the end marker; inside entropy-coded data
-// skip to the next marker that is neither stuffing (00) nor restart (D0-D7).
-bool jpeg_is_whole(Bytes bytes) {
+struct JpegOutline {
+  bool is_whole = false;
+  unsigned width = 0, height = 0, channels = 0;
+};
+
+// What a JPEG claims, and whether it has its end. libjpeg fills what is missing with grey and only warns, and
+// only once: not if stray bytes before a marker came first. So walk the segments to the end marker; inside
+// entropy-coded data skip to the next marker that is neither stuffing (00) nor restart (D0-D7).
+JpegOutline outline_of_jpeg(Bytes bytes) {
+  JpegOutline outline;
   const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(bytes[i]); };
   std::size_t i = 2;
   while (i + 1 < bytes.size()) {
@@ -78,17 +87,25 @@ bool jpeg_is_whole(Bytes bytes) {
       continue;
     }
     const unsigned marker = at(i + 1);
-    if (marker == 0xd9) return true;
+    if (marker == 0xd9) outline.is_whole = true;
+    if (marker == 0xd9) return outline;
     if (marker == 0xff) {
       ++i;
     } else if (marker <= 0x01 || (marker >= 0xd0 && marker <= 0xd8)) {
       i += 2;
     } else {
-      if (i + 3 >= bytes.size()) return false;
+      if (i + 3 >= bytes.size()) return outline;
+      // A start of frame: C0 to CF, but for the tables C4 and CC and the reserved C8.
+      const bool is_frame = (marker & 0xf0) == 0xc0 && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+      if (is_frame && i + 9 < bytes.size()) {
+        outline.height = std::max(outline.height, at(i + 5) << 8 | at(i + 6));
+        outline.width = std::max(outline.width, at(i + 7) << 8 | at(i + 8));
+        outline.channels = std::max(outline.channels, at(i + 9));
+      }
       i += 2 + (at(i + 2) << 8 | at(i + 3));
     }
   }
-  return false;
+  return outline;
 }
 
 std::array<std::uint32_t, 256> make_crc_table() {
@@ -133,6 +150,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 struct Reader {
   std::string name;
   std::size_t file_size;
+  std::size_t plain_bytes = kPlainBytes;
   OIIO::Filesystem::IOMemReader memory;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
@@ -144,8 +162,13 @@ struct Reader {
     is_exr = format == "openexr";
     is_scene_referred = is_exr || format == "hdr";
     is_webp = format == "webp";
-    if (format == "jpeg" && !jpeg_is_whole(bytes))
-      throw InputError(name, "", "truncated: the JPEG has no end");
+    if (format == "jpeg" || format == "png") plain_bytes = kPlainBytesOfWhole;
+    if (format == "jpeg") {
+      const JpegOutline outline = outline_of_jpeg(bytes);
+      if (!outline.is_whole) throw InputError(name, "", "truncated: the JPEG has no end");
+      // libjpeg decodes all of a progressive one when it is opened.
+      check_claim(outline.width, outline.height, outline.channels, 1);
+    }
     if (format == "png")
       if (const std::string problem = png_problem(bytes); !problem.empty())
         throw InputError(name, "", problem);
@@ -178,13 +201,19 @@ struct Reader {
         fmt::format("broken or truncated: {}", text.empty() ? "cannot be decoded" : first_line(text)));
   }
 
-  std::size_t checked_bytes(int channels, std::size_t sample_bytes) const {
-    const std::size_t bytes = std::size_t(spec.width) * spec.height * channels * sample_bytes;
-    if (bytes > kPlainBytes && bytes / kMaxExpansion > file_size)
+  std::size_t check_claim(std::size_t width, std::size_t height, std::size_t channels,
+                          std::size_t sample_bytes) const {
+    const std::size_t bytes = width * height * channels * sample_bytes;
+    if (bytes > plain_bytes && bytes / kMaxExpansion > file_size)
       throw InputError(name, "",
-                       fmt::format("{} x {} x {} claimed by a file of {} bytes: more than it can hold",
-                                   spec.width, spec.height, channels, file_size));
+                       fmt::format("{} x {} x {} claimed by a file of {} bytes: more than it can hold", width,
+                                   height, channels, file_size));
     return bytes;
+  }
+
+  std::size_t checked_bytes(int channels, std::size_t sample_bytes) const {
+    return check_claim(std::size_t(spec.width), std::size_t(spec.height), std::size_t(channels),
+                       sample_bytes);
   }
 
   // Rows [begin, end) of the channels [first, last); tiled files can only be asked for the whole.
