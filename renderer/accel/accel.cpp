@@ -29,7 +29,7 @@ struct TracedMesh {
   std::optional<TrianglePairs> pairs;  // absent: Embree has the triangles themselves
 
   TrianglePoint point(std::uint32_t primitive, float u, float v) const {
-    return pairs ? pairs->point(triangles, primitive, u, v) : TrianglePoint{primitive, u, v};
+    return pairs ? pairs->point(primitive, u, v) : TrianglePoint{primitive, u, v};
   }
 };
 
@@ -147,6 +147,8 @@ struct Accel::Impl {
     top = new_scene();
     build_meshes();
     build_top();
+    for (TracedMesh& mesh : traced)
+      if (mesh.pairs) find_origins(*mesh.pairs, mesh.triangles);
   }
 
   ~Impl() {
@@ -282,14 +284,26 @@ struct Accel::Impl {
     geometries.push_back(geometry);
   }
 
+  /// By placement; null where the mesh is not instanced. Millions, so in parallel.
+  std::vector<RTCGeometry> make_instances() const {
+    std::vector<RTCGeometry> instances(world->placements.size(), nullptr);
+    constexpr std::size_t kGrain = 256;
+    parallel_for(instances.size(), kGrain, [&](std::size_t i) {
+      const Placement& p = world->placements[i];
+      if (!mesh_scenes[p.mesh]) return;
+      instances[i] = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(instances[i], mesh_scenes[p.mesh]);
+      set_instance_transform(instances[i], p.to_world);
+    });
+    return instances;
+  }
+
   void build_top() {
+    const std::vector<RTCGeometry> instances = make_instances();
     for (std::uint32_t i = 0; i < world->placements.size(); ++i) {
       const Placement& p = world->placements[i];
-      if (RTCScene mesh = mesh_scenes[p.mesh]) {
-        RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, mesh);
-        set_instance_transform(instance, p.to_world);
-        attach(instance, i, 0);
+      if (instances[i]) {
+        attach(instances[i], i, 0);
       } else {
         for (std::uint32_t k = 0; k < p.part_count; ++k)
           attach(new_mesh(p.first_part + k, p.identity ? nullptr : &p.to_world), i, k);

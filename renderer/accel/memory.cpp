@@ -24,10 +24,10 @@ Cost cost_of(bool quads, const AccelSettings& settings) {
   return settings.compact ? Cost{37, 3} : Cost{65, 34};
 }
 
-constexpr double kPairBytes = sizeof(Quad) + sizeof(std::uint32_t) + 1;
+constexpr double kPairBytes = sizeof(Quad), kOriginBytes = sizeof(PairOrigin);
 // Above this many triangles the copies of a mesh cost more than its instances.
 constexpr double kMostCopied = 4e6;
-constexpr double kInstanceBytes = 600, kSolidBytes = 110;
+constexpr double kInstanceBytes = 400, kSolidBytes = 110;
 
 /// Of one placement: its triangles, or the quads that they are traced as.
 double count_primitives(const World& world, const Placement& p, bool paired) {
@@ -91,7 +91,8 @@ AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelS
   const MeshUses uses = find_mesh_uses(scene, world, settings);
   const Cost cost = cost_of(uses.paired, settings);
   std::vector<double> primitives(uses.instanced.size(), -1);  // by mesh; -1: not yet met
-  double held = 0, largest = 0, top = 0;  // primitives of the largest mesh that is built alone, of the rest
+  double held = 0, after = 0;                                 // bytes during the builds, and made after them
+  double largest = 0, top = 0;  // primitives of the largest mesh that is built alone, of the rest
   std::size_t instances = 0;
   for (const Placement& p : world.placements) {
     const bool instanced = uses.instanced[p.mesh], is_new = primitives[p.mesh] < 0;
@@ -99,6 +100,7 @@ AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelS
     if (is_new) {
       count = count_primitives(world, p, uses.paired);
       if (uses.paired) held += kPairBytes * count;
+      if (uses.paired) after += kOriginBytes * count;
     }
     instances += instanced;
     if (instanced && !is_new) continue;
@@ -115,7 +117,7 @@ AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelS
   }
   held += kInstanceBytes * double(instances) + kSolidBytes * double(world.solids.size());
   const double building = cost.building * std::max(largest, top);
-  return {std::size_t(held), std::size_t(held + building)};
+  return {std::size_t(held + after), std::size_t(held + std::max(after, building))};
 }
 
 }  // namespace parian

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/memory.h"
 #include "renderer/base/parallel.h"
 
 namespace parian {
@@ -65,35 +66,63 @@ Quad make_quad(const Triangle& a, const Triangle& b) {
   return {a[edge.a], a[(edge.a + 1) % 3], b[edge.b], a[(edge.a + 2) % 3]};
 }
 
-/// The corner of a triangle that is vertex v.
-int corner_of(const Triangle& t, std::uint32_t v) { return t[0] == v ? 0 : t[1] == v ? 1 : 2; }
+/// From each triangle to its partner, if that comes later.
+class Steps {
+ public:
+  explicit Steps(const SharedArray<Triangle>& triangles)
+      : size_(triangles.size()), before_(chunk_count(triangles) + 1, 0) {
+    auto [array, steps] = make_shared_array<std::uint8_t>(size_);
+    steps_ = std::move(array);
+    parallel_for(before_.size() - 1, 1, [&, steps = steps](std::size_t c) {
+      before_[c + 1] = pair_chunk(chunk_of(triangles, c), steps + c * kChunk);
+    });
+    for (std::size_t c = 1; c < before_.size(); ++c) before_[c] += before_[c - 1];
+  }
+
+  std::size_t quads() const { return before_.back(); }
+
+  /// Calls body(quad, its first triangle, step to the second or 0) for all quads, in parallel.
+  template <class Body>
+  void for_each(const Body& body) const {
+    parallel_for(before_.size() - 1, 1, [&](std::size_t c) {
+      std::size_t quad = before_[c];
+      for (std::size_t i = c * kChunk; i < std::min(size_, (c + 1) * kChunk); ++i)
+        if (steps_[i] != kSecond) body(quad++, i, steps_[i]);
+    });
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<std::size_t> before_;  // quads of the chunks before each
+  SharedArray<std::uint8_t> steps_;
+};
 
 }  // namespace
 
 TrianglePairs pair_triangles(const SharedArray<Triangle>& triangles) {
-  const std::size_t chunks = chunk_count(triangles);
-  auto [step, steps] = make_shared_array<std::uint8_t>(triangles.size());
-  std::vector<std::size_t> before(chunks + 1, 0);  // quads of the chunks before each
-  parallel_for(chunks, 1, [&, steps = steps](std::size_t c) {
-    before[c + 1] = pair_chunk(chunk_of(triangles, c), steps + c * kChunk);
+  const Steps steps(triangles);
+  auto [quads, quad] = make_page_array<Quad>(steps.quads());
+  steps.for_each([&, quad = quad](std::size_t q, std::size_t i, std::uint8_t step) {
+    const Triangle& t = triangles[i];
+    quad[q] = step ? make_quad(t, triangles[i + step]) : Quad{t[0], t[1], t[2], t[2]};
   });
-  for (std::size_t c = 0; c < chunks; ++c) before[c + 1] += before[c];
-  auto [quads, quad] = make_shared_array<Quad>(before.back());
-  auto [first, first_of] = make_shared_array<std::uint32_t>(before.back());
-  auto [step_by_quad, step_of] = make_shared_array<std::uint8_t>(before.back());
-  parallel_for(chunks, 1,
-               [&, steps = steps, quad = quad, first_of = first_of, step_of = step_of](std::size_t c) {
-                 std::size_t q = before[c];
-                 const std::size_t end = std::min(triangles.size(), (c + 1) * kChunk);
-                 for (std::size_t i = c * kChunk; i < end; ++i) {
-                   if (steps[i] == kSecond) continue;
-                   const Triangle& t = triangles[i];
-                   quad[q] = steps[i] ? make_quad(t, triangles[i + steps[i]]) : Quad{t[0], t[1], t[2], t[2]};
-                   first_of[q] = std::uint32_t(i);
-                   step_of[q++] = steps[i];
-                 }
-               });
-  return {std::move(quads), std::move(first), std::move(step_by_quad)};
+  return {std::move(quads), {}};
+}
+
+void find_origins(TrianglePairs& pairs, const SharedArray<Triangle>& triangles) {
+  const Steps steps(triangles);
+  auto [origins, origin] = make_page_array<PairOrigin>(steps.quads());
+  steps.for_each([&, origin = origin](std::size_t q, std::size_t i, std::uint8_t step) {
+    PairOrigin& o = origin[q];
+    o = {std::uint32_t(i), step, 0, 0, false};
+    if (step == 0) return;
+    const Triangle &a = triangles[i], &b = triangles[i + step];
+    const SharedEdge edge = shared_edge(a, b);
+    o.corner = std::uint8_t(edge.a);
+    o.second_corner = std::uint8_t(edge.b);
+    o.turned = b[(edge.b + 1) % 3] != a[(edge.a + 2) % 3];
+  });
+  pairs.origins = std::move(origins);
 }
 
 double estimate_quads(const SharedArray<Triangle>& triangles) {
@@ -106,23 +135,6 @@ double estimate_quads(const SharedArray<Triangle>& triangles) {
     seen += chunk.size();
   }
   return seen ? double(quads) / double(seen) * double(triangles.size()) : 0;
-}
-
-TrianglePoint TrianglePairs::point(const SharedArray<Triangle>& triangles, std::uint32_t quad, float u,
-                                   float v) const {
-  const Quad& corners = quads[quad];
-  const bool second = u + v > 1 && step[quad] != 0;
-  const std::uint32_t triangle = first[quad] + (second ? step[quad] : 0);
-  const Triangle& t = triangles[triangle];
-  // Of the corner off the shared edge and the two after it; Embree gives a point (u', v') of the second half
-  // (2, 3, 1) as (1 - u', 1 - v').
-  const int off = corner_of(t, corners[second ? 2 : 0]), next = (off + 1) % 3, last = (off + 2) % 3;
-  std::array<float, 3> weight;
-  weight[off] = second ? u + v - 1 : 1 - u - v;
-  weight[next] = second ? 1 - u : u;
-  weight[last] = second ? 1 - v : v;
-  if (second && t[next] != corners[3]) std::swap(weight[next], weight[last]);  // wound the other way
-  return {triangle, weight[1], weight[2]};
 }
 
 }  // namespace parian

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/shared_array.h"
@@ -51,5 +52,14 @@ class PageBuffer {
   std::byte* data_;
   std::size_t size_, mapped_;
 };
+
+/// As make_shared_array(), of pages of its own, as large as the system has them: for large arrays that are
+/// read at random.
+template <class T>
+std::pair<SharedArray<T>, T*> make_page_array(std::size_t size) {
+  auto pages = std::make_shared<PageBuffer>(size * sizeof(T));
+  T* const data = reinterpret_cast<T*>(pages->data());
+  return {SharedArray<T>(std::move(pages), data, size, true), data};
+}
 
 }  // namespace parian

@@ -29,20 +29,26 @@ Primitive make_grid(int n) {
   return p;
 }
 
+TrianglePairs find_pairs(const SharedArray<Triangle>& triangles) {
+  TrianglePairs pairs = pair_triangles(triangles);
+  find_origins(pairs, triangles);
+  return pairs;
+}
+
 std::vector<int> uses_of(const TrianglePairs& pairs, std::size_t triangles) {
   std::vector<int> uses(triangles, 0);
   for (std::size_t q = 0; q < pairs.quads.size(); ++q) {
-    ++uses[pairs.first[q]];
-    if (pairs.step[q]) ++uses[pairs.first[q] + pairs.step[q]];
+    ++uses[pairs.origins[q].first];
+    if (pairs.origins[q].step) ++uses[pairs.origins[q].first + pairs.origins[q].step];
   }
   return uses;
 }
 
 TEST(TrianglePairs, PairsEachTriangleOfASquareWithTheOther) {
   const Primitive grid = make_grid(300);  // several chunks
-  const TrianglePairs pairs = pair_triangles(grid.triangles);
+  const TrianglePairs pairs = find_pairs(grid.triangles);
   EXPECT_EQ(pairs.quads.size(), 300u * 300u);
-  EXPECT_TRUE(std::ranges::all_of(pairs.step, [](std::uint8_t step) { return step == 1; }));
+  EXPECT_TRUE(std::ranges::all_of(pairs.origins, [](const PairOrigin& o) { return o.step == 1; }));
   EXPECT_TRUE(std::ranges::all_of(uses_of(pairs, grid.triangles.size()), [](int n) { return n == 1; }));
   EXPECT_EQ(estimate_quads(grid.triangles), 300.0 * 300.0);
 }
@@ -57,17 +63,17 @@ TEST(TrianglePairs, HasEachTriangleOnceWhateverTheirOrder) {
     std::ranges::rotate(triangles[i], triangles[i].begin() + int(random.next1() * 3));
   }
   const SharedArray<Triangle> array(triangles);
-  const TrianglePairs pairs = pair_triangles(array);
+  const TrianglePairs pairs = find_pairs(array);
   EXPECT_TRUE(std::ranges::all_of(uses_of(pairs, triangles.size()), [](int n) { return n == 1; }));
   EXPECT_LT(pairs.quads.size(), triangles.size() * 3 / 4);
   for (std::size_t q = 0; q < pairs.quads.size(); ++q) {
-    Triangle first = triangles[pairs.first[q]];
+    Triangle first = triangles[pairs.origins[q].first];
     Triangle half{pairs.quads[q][0], pairs.quads[q][1], pairs.quads[q][3]};
     std::ranges::sort(first);
     std::ranges::sort(half);
     EXPECT_EQ(first, half);
-    if (!pairs.step[q]) continue;
-    Triangle second = triangles[pairs.first[q] + pairs.step[q]],
+    if (!pairs.origins[q].step) continue;
+    Triangle second = triangles[pairs.origins[q].first + pairs.origins[q].step],
              other{pairs.quads[q][2], pairs.quads[q][3], pairs.quads[q][1]};
     std::ranges::sort(second);
     std::ranges::sort(other);
@@ -77,10 +83,10 @@ TEST(TrianglePairs, HasEachTriangleOnceWhateverTheirOrder) {
 
 TEST(TrianglePairs, LeavesAloneWhatSharesNoEdgeOrHasNoArea) {
   const std::vector<Triangle> apart{{0, 1, 2}, {2, 3, 4}, {5, 5, 6}, {5, 6, 7}, {8, 9, 10}, {8, 9, 10}};
-  const TrianglePairs pairs = pair_triangles(SharedArray<Triangle>(apart));
+  const TrianglePairs pairs = find_pairs(SharedArray<Triangle>(apart));
   ASSERT_EQ(pairs.quads.size(), apart.size());
   for (std::size_t q = 0; q < apart.size(); ++q) {
-    EXPECT_EQ(pairs.step[q], 0);
+    EXPECT_EQ(pairs.origins[q].step, 0);
     EXPECT_EQ(pairs.quads[q], (Quad{apart[q][0], apart[q][1], apart[q][2], apart[q][2]}));
   }
 }
