@@ -108,6 +108,7 @@ void for_chunks(std::size_t count, const std::function<void(std::size_t, std::si
 
 AccessorReader::AccessorReader(const GltfDocument& document) : document_(document), claimable_(kSmallFile) {
   for (const auto& bytes : document.storage) claimable_ += kMaxGrowth * bytes.size();
+  claimable_ -= kMaxGrowth * document.json_bytes;  // a long text holds no elements
   for (const auto& bytes : document.decoded) claimable_ += kMaxDecodedGrowth * bytes.size();
   // Already bounded as a whole by check_document().
   for (const auto& accessor : document.model.accessors) {

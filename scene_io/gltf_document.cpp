@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "scene_io/gltf_decompress.h"
@@ -61,15 +62,17 @@ std::span<const std::byte> load_buffer(GltfDocument& document, const json& buffe
   std::span<const std::byte> bytes = binary;
   if (has_uri) {
     const auto& uri = buffer["uri"].get_ref<const std::string&>();
+    std::optional<std::size_t> file;
     try {
       if (is_data_uri(uri))
         document.storage.push_back(decode_data_uri(uri));
       else
-        document.store_file(resolve_uri(uri, document.folder));
+        file = document.store_file(resolve_uri(uri, document.folder));
     } catch (const std::runtime_error& error) {
       document.fail(where + "/uri", error.what());
     }
-    bytes = {document.storage.back().data(), document.storage.back().size()};
+    const SharedArray<std::byte>& stored = file ? document.storage[*file] : document.storage.back();
+    bytes = {stored.data(), stored.size()};
   } else if (number != 0 || binary.empty()) {
     document.fail(where + "/uri", "expected a string: there is no binary chunk for this buffer");
   }
@@ -118,10 +121,13 @@ void parse_model(GltfDocument& document, const json& root) {
 
 }  // namespace
 
-void GltfDocument::store_file(const std::filesystem::path& path) {
+std::size_t GltfDocument::store_file(const std::filesystem::path& path) {
+  const auto [known, is_new] = stored.try_emplace(path, storage.size());
+  if (!is_new) return known->second;
   pages.push_back(read_asset_file(path));
   const PageBuffer& bytes = *pages.back();
   storage.emplace_back(pages.back(), bytes.data(), bytes.size(), true);
+  return known->second;
 }
 
 GltfDocument read_document(const std::string& path) {
@@ -135,6 +141,7 @@ GltfDocument read_document(const std::string& path) {
   }
   const SharedArray<std::byte> bytes = document.storage.front();
   const GltfChunks chunks = split_gltf({bytes.data(), bytes.size()}, path);
+  document.json_bytes = chunks.json.size();
   json root = parse_json(chunks.json, path);
   conform(root, path);
   const json buffers = take(root, "buffers");

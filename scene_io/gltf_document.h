@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <span>
 #include <string>
@@ -23,15 +24,18 @@ struct GltfDocument {
   std::vector<std::span<const std::byte>> buffers;  // exactly byteLength each
   std::vector<SharedArray<std::byte>> storage;      // what the buffers are views of
   std::vector<std::shared_ptr<PageBuffer>> pages;   // of `storage`, those read from files
-  std::vector<SharedArray<std::byte>> decoded;      // what further buffers are views of, once decompressed
+  std::size_t json_bytes = 0;                       // of `storage`, those of the JSON text
+  std::map<std::filesystem::path, std::size_t> stored;  // files, by their places in `storage`
+  std::vector<SharedArray<std::byte>> decoded;  // what further buffers are views of, once decompressed
 
   std::span<const std::byte> view(int buffer_view) const {
     const auto& v = model.bufferViews[std::size_t(buffer_view)];
     return buffers[std::size_t(v.buffer)].subspan(v.byteOffset, v.byteLength);
   }
 
-  /// Reads a file into `storage`. Throws std::runtime_error as read_asset_file() does.
-  void store_file(const std::filesystem::path& path);
+  /// Reads a file into `storage`, once, and returns its place there. Throws std::runtime_error as
+  /// read_asset_file() does.
+  std::size_t store_file(const std::filesystem::path& path);
 
   [[noreturn]] void fail(std::string_view where, std::string_view expected) const {
     throw InputError(file, where, expected);

@@ -216,5 +216,48 @@ TEST_F(GltfAccessor, RefusesAbsurdClaims) {
   EXPECT_NE(refusal(overlapping.glb()).find("repeat the same bytes"), std::string::npos);
 }
 
+// Packed floats and 32-bit indices are read where the file lies; what is interleaved, short or not aligned is
+// copied. Caught: a copy of what could be shared, a view of what cannot.
+TEST_F(GltfAccessor, SharesWithTheFileWhatLiesAsItIsRead) {
+  const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::vector<std::uint32_t> corners{2, 0, 1};
+  const auto mesh_with = [&](const auto& change) {
+    GltfBuilder builder;
+    const int positions = builder.add(points, "VEC3");
+    json& primitive = builder.add_mesh({{"POSITION", positions}});
+    primitive["indices"] = builder.add(corners, "SCALAR");
+    change(builder);
+    return load(builder.glb()).meshes.at(0).primitives.at(0);
+  };
+  const auto expect_values = [&](const Primitive& p) {
+    ASSERT_EQ(p.positions.size(), 3u);
+    EXPECT_EQ(p.positions[1], Vec3f(1, 0, 0));
+    EXPECT_EQ(p.triangles[0], (Triangle{2, 0, 1}));
+    EXPECT_TRUE(p.positions.padded());
+  };
+  const Primitive shared = mesh_with([](GltfBuilder&) {});
+  expect_values(shared);
+  const auto* const first = reinterpret_cast<const char*>(shared.positions.data());
+  EXPECT_EQ(reinterpret_cast<const char*>(shared.triangles.data()) - first, 9 * 4);  // as in the file
+
+  const Primitive interleaved = mesh_with([&](GltfBuilder& builder) {
+    std::vector<float> wide;
+    for (int i = 0; i < 3; ++i)
+      wide.insert(wide.end(), {points[3 * i], points[3 * i + 1], points[3 * i + 2], 7});
+    builder.root["accessors"][0]["bufferView"] = builder.add_view(wide);
+    builder.root["bufferViews"].back()["byteStride"] = 16;
+  });
+  expect_values(interleaved);
+  const Primitive shorter = mesh_with([&](GltfBuilder& builder) {
+    builder.root["meshes"][0]["primitives"][0]["indices"] =
+        builder.add(std::vector<std::uint16_t>{2, 0, 1}, "SCALAR");
+  });
+  expect_values(shorter);
+  for (const Primitive* p : {&interleaved, &shorter})
+    EXPECT_NE(reinterpret_cast<const char*>(p->triangles.data()) -
+                  reinterpret_cast<const char*>(p->positions.data()),
+              9 * 4);
+}
+
 }  // namespace
 }  // namespace parian

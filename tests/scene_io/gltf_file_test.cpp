@@ -1,6 +1,7 @@
 // Where the bytes come from: containers, URIs, and JSON that is not glTF.
 #include <gtest/gtest.h>
 
+#include "renderer/base/memory.h"
 #include "tests/scene_io/support/gltf_builder.h"
 
 namespace parian {
@@ -44,6 +45,17 @@ TEST_F(GltfFile, ReadsExternalFileWithEscapes) {
   write("sub dir/my data.bin", builder.binary);
   expect_triangle(load(builder.gltf("sub%20dir/my%20data.bin"), "scene.gltf"));
   expect_triangle(load(builder.gltf("sub dir/my data.bin"), "scene.gltf"));
+}
+
+// Ten thousand buffers that name one file of 4 MB take it once. Caught: 40 GB, or the time to read them.
+TEST_F(GltfFile, ReadsAFileOnceHoweverManyBuffersNameIt) {
+  GltfBuilder builder = triangle();
+  builder.binary.resize(std::size_t(4) << 20);
+  write("data.bin", builder.binary);
+  json document = json::parse(builder.gltf("data.bin"));
+  for (int i = 0; i < 10000; ++i) document["buffers"].push_back(document["buffers"][0]);
+  expect_triangle(load(document.dump(), "scene.gltf"));
+  EXPECT_LT(peak_memory(), std::size_t(4) << 30);
 }
 
 TEST_F(GltfFile, TellsTheFormatByContentNotName) { expect_triangle(load(triangle().glb(), "scene.gltf")); }
