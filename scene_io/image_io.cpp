@@ -131,7 +131,9 @@ std::string png_problem(Bytes bytes) {
     const std::size_t length = word(i);
     if (bytes.size() - i - 12 < length) break;
     const std::string_view type(reinterpret_cast<const char*>(bytes.data()) + i + 4, 4);
-    const bool critical = type[0] < 'a' || type[0] > 'z';
+    const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+    if (!std::ranges::all_of(type, is_letter)) return fmt::format("no chunk type at byte {}", i + 4);
+    const bool critical = type[0] <= 'Z';
     std::uint32_t crc = 0xffffffffu;
     if (critical)
       for (const std::byte b : bytes.subspan(i + 4, length + 4))
