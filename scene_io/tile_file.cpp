@@ -14,7 +14,7 @@ namespace parian {
 TileFile::TileFile() {
   const char* folder = std::getenv("TMPDIR");
   folder_ = folder && *folder ? folder : "/tmp";
-  std::string path = folder_ + "/parian-XXXXXX";
+  std::string path = folder_ + "/parian-XXXXXX";  // mkostemp() writes over the last six letters
   descriptor_ = ::mkostemp(path.data(), O_CLOEXEC);
   if (descriptor_ < 0)
     throw InputError(folder_, "",

@@ -11,7 +11,7 @@ namespace {
 // small scenes, whose memory is nothing, packets of rays take up to 3% longer for quads.
 constexpr double kLeastPaired = 0.6, kLeastTriangles = 1000;
 
-// Bytes for each primitive, measured (docs/measurements.md): what Embree holds, and what it takes beside that
+// Bytes for each primitive, measured (docs/large.md): what Embree holds, and what it takes beside that
 // while it builds.
 struct Cost {
   double held, building;

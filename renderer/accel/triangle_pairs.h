@@ -1,6 +1,6 @@
 /// Triangles traced as quads: Embree keeps two triangles that share an edge in two thirds of the memory that
 /// it takes for them one by one, builds half as many primitives, and traces them no slower
-/// (docs/measurements.md). A triangle without partner is a quad whose second half has no area.
+/// (docs/large.md). A triangle without partner is a quad whose second half has no area.
 #pragma once
 
 #include <array>
