@@ -41,7 +41,7 @@ class BuildOptions : public ProgramTest {
   std::string grid_;
 };
 
-// Caught: an option that does nothing, quads left out of what is predicted.
+// Caught: an option that does nothing.
 TEST_F(BuildOptions, BuildIsAsAskedForAndThePictureTheSame) {
   std::vector<double> means, bytes;
   for (const std::string build : {"fast", "balanced", "best"}) {
@@ -65,7 +65,7 @@ TEST_F(BuildOptions, BuildIsAsAskedForAndThePictureTheSame) {
   EXPECT_EQ(statistics()["build"], "balanced");
 }
 
-// Within 10%, and told before. Caught: the film, the pairs or the process itself left out.
+// Within 10%, and told before. Caught: the process itself left out.
 TEST_F(BuildOptions, PeakMemoryIsPredicted) {
   ASSERT_EQ(render({"--build", "balanced"}).code, 0);
   const json stats = statistics();
@@ -80,6 +80,7 @@ TEST_F(BuildOptions, PeakMemoryIsPredicted) {
   EXPECT_NEAR(said * 1e6 / peak, 1, 0.1);
 }
 
+// Caught: compact left out, a limit that nobody asks about.
 TEST_F(BuildOptions, StaysBelowTheLimitOrSaysWhatItNeeds) {
   ASSERT_EQ(render({"--build", "balanced"}).code, 0);
   const double predicted = statistics()["predicted_peak_memory_bytes"];
