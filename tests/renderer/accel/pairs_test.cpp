@@ -137,8 +137,7 @@ TEST(TrianglePairs, TakeLessMemoryWhereTheyAre) {
   EXPECT_LT(bytes(make_grid(200)), 0.85 * bytes(random_triangles(random, 80000, 0.01f)));
 }
 
-// Within 10%, for all that a build may be. Caught: the index of the pairs left out, copies of vertices left
-// out.
+// Within 10%, for all that a build may be. Caught: the pairs left out.
 TEST(AccelMemory, IsAsEstimated) {
   TestRandom random(7);
   for (const bool paired : {true, false})
