@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "scene_io/gltf.h"
+#include "scene_io/gltf/gltf.h"
 
 namespace parian {
 

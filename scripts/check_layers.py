@@ -23,9 +23,10 @@ SEES = {
     "session": ["base", "scene", "shapes", "light", "film", "accel"],
     "materials": ["base", "scene"],
     "integrators": ["base", "scene", "shapes", "light", "film", "accel", "session", "materials"],
-    "scene_io": ["base", "scene", "color"],
+    "images": ["base", "scene"],
+    "scene_io": ["base", "scene", "images"],
     "apps": ["base", "scene", "shapes", "light", "color", "film", "accel", "session", "materials",
-             "integrators", "scene_io", "compare"],
+             "integrators", "images", "scene_io", "compare"],
 }  # fmt: skip
 
 # Headers of third-party libraries by pattern, and the paths they may be included from. "" is everywhere.
@@ -35,10 +36,10 @@ HOMES = [
     (r"embree[34]/", ["renderer/accel/", "bench/"]),
     (r"(tbb|oneapi)/", ["renderer/base/parallel"]),
     (r"OpenColorIO/", ["renderer/color/"]),
-    (r"OpenImageIO/", ["scene_io/image_io", "scene_io/image_cache", "scene_io/image_difference"]),
-    (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf"]),
-    (r"draco/", ["scene_io/gltf_draco", "scene_io/support/draco_"]),
-    (r"meshoptimizer\.h$", ["scene_io/gltf_meshopt"]),
+    (r"OpenImageIO/", ["images/oiio/", "tests/images/"]),
+    (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf/"]),
+    (r"draco/", ["scene_io/gltf/geometry/draco", "scene_io/support/draco_"]),
+    (r"meshoptimizer\.h$", ["scene_io/gltf/geometry/meshopt"]),
     (r"nlohmann/", ["scene_io/", "renderer/apps/"]),
     (r"CLI/", ["renderer/apps/"]),
     (r"(Qt\w*/|Q[A-Z]\w*$)", ["renderer/apps/editor"]),
@@ -48,7 +49,7 @@ HOMES = [
 SYSTEM = re.compile(r"(sys/\w+|unistd|fcntl|signal|pthread|sched|dlfcn|termios|\wmmintrin|x86intrin)\.h$")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-FOLDERS = ["renderer", "scene_io", "materials", "integrators", "tests"]
+FOLDERS = ["renderer", "images", "scene_io", "materials", "integrators", "tests"]
 
 
 def layer_of(path):

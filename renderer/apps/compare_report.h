@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "images/image_difference.h"
 #include "renderer/compare/block_test.h"
 #include "renderer/compare/flip.h"
 #include "renderer/compare/pixel_errors.h"
-#include "scene_io/image_difference.h"
 
 namespace parian {
 

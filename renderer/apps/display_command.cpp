@@ -1,6 +1,6 @@
+#include "images/image_io.h"
 #include "renderer/apps/commands.h"
 #include "renderer/color/display.h"
-#include "scene_io/image_io.h"
 
 namespace parian {
 

@@ -6,7 +6,7 @@
 #include "renderer/apps/texture_memory.h"
 #include "renderer/base/memory.h"
 #include "renderer/session/build_plan.h"
-#include "scene_io/gltf.h"
+#include "scene_io/gltf/gltf.h"
 #include "scene_io/statistics.h"
 
 namespace parian {

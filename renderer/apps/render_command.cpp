@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "images/image_io.h"
 #include "integrators/integrators.h"
 #include "renderer/apps/checkpoint.h"
 #include "renderer/apps/commands.h"
@@ -20,8 +21,7 @@
 #include "renderer/base/memory.h"
 #include "renderer/base/parallel.h"
 #include "renderer/color/display.h"
-#include "scene_io/gltf.h"
-#include "scene_io/image_io.h"
+#include "scene_io/gltf/gltf.h"
 
 namespace parian {
 namespace {
@@ -246,6 +246,7 @@ void write_pictures(const Session& session, const RenderOptions& o, double rende
 
 int render(RenderOptions o) {
   check_outputs(o);
+  require_image_library();
   Vec2i size = o.size.empty() ? Vec2i(0) : parse_size(o.size);
   const bool other_end = o.settings.seconds > 0 || o.settings.noise > 0;
   o.settings.spp = o.spp > 0 ? o.spp : other_end ? kNoLimit : 64;

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "images/image_memory.h"
 #include "renderer/session/session.h"
-#include "scene_io/image_memory.h"
 
 namespace parian {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "scene_io/image_memory.h"
+#include "images/image_memory.h"
 
 namespace parian {
 

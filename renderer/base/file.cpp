@@ -49,4 +49,12 @@ void write_file(const std::string& path, std::string_view bytes) {
   }
 }
 
+std::string find_own_file(const std::string& installed, const std::string& built) {
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const auto place = [&](const std::string& path) { return (folder / path).lexically_normal().string(); };
+  for (const std::string& path : {place(installed), place(built)})
+    if (std::filesystem::exists(path)) return path;
+  throw std::runtime_error(fmt::format("{} is missing, which belongs to this program", place(installed)));
+}
+
 }  // namespace parian

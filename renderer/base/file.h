@@ -14,4 +14,8 @@ std::vector<char> read_file(const std::string& path);
 /// which is then renamed. Throws InputError, also where `path` is there and is no regular file.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// A file that belongs to this program: at `installed` or `built`, relative to the folder of the executable;
+/// in this order, normalised. Throws std::runtime_error where it is at neither.
+std::string find_own_file(const std::string& installed, const std::string& built);
+
 }  // namespace parian

@@ -28,18 +28,6 @@ struct Config {
   std::vector<std::string> views;  // of the display, in the config's order: the first is its default
 };
 
-// The config that belongs to this program: beside it where it is installed (bin/, share/) or built (share/ in
-// the folder of the program).
-std::string shipped_config() {
-  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& share : {folder / ".." / "share", folder / "share"}) {
-    const fs::path config = share / "parian" / "ocio" / "config.ocio";
-    if (fs::exists(config)) return config.lexically_normal().string();
-  }
-  throw InputError((folder / "../share/parian/ocio/config.ocio").lexically_normal().string(), "",
-                   "Parian's own OpenColorIO config is missing");
-}
-
 // What OpenColorIO says, in one line.
 [[noreturn]] void fail(const std::string& config, const OCIO::Exception& error) {
   std::string text = error.what();
@@ -50,7 +38,9 @@ std::string shipped_config() {
 Config load_config() {
   Config config;
   const char* variable = std::getenv("OCIO");
-  config.path = variable && *variable ? variable : shipped_config();
+  config.path = variable && *variable
+                    ? variable
+                    : find_own_file("../share/parian/ocio/config.ocio", "share/parian/ocio/config.ocio");
   try {
     config.ocio = OCIO::Config::CreateFromFile(config.path.c_str());
   } catch (const OCIO::Exception& error) {

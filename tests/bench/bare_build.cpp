@@ -12,7 +12,7 @@
 #include "renderer/accel/embree.h"
 #include "renderer/base/memory.h"
 #include "renderer/scene/world.h"
-#include "scene_io/gltf.h"
+#include "scene_io/gltf/gltf.h"
 #include "tests/bench/support/timing.h"
 
 namespace {

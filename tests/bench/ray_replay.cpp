@@ -17,7 +17,7 @@
 #include "renderer/accel/embree.h"
 #include "renderer/base/parallel.h"
 #include "renderer/session/session.h"
-#include "scene_io/gltf.h"
+#include "scene_io/gltf/gltf.h"
 #include "tests/bench/support/timing.h"
 
 namespace {

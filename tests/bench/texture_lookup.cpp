@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "images/image_cache.h"
 #include "renderer/scene/texture.h"
-#include "scene_io/image_cache.h"
 #include "tests/support/scenes.h"
 
 namespace parian {

@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
+#include "images/image_io.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image.h"
-#include "scene_io/gltf.h"
-#include "scene_io/image_io.h"
+#include "scene_io/gltf/gltf.h"
 
 namespace parian {
 
