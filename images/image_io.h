@@ -15,6 +15,10 @@ namespace parian {
 /// would find: to be asked before long work that ends in one.
 void require_image_library();
 
+/// What the process will take for it, in bytes, with the first image: 0 once it is there. (Debian's
+/// OpenImageIO with all that it needs; measured.)
+std::size_t image_library_bytes();
+
 /// Decodes an image at its own bit depth (8 and 16 bit integers, half, float); alpha unassociated, as glTF
 /// stores it; at most 4 channels. `name` names it in messages. Throws InputError (unreadable, truncated,
 /// unsupported, absurd size, NaN or Inf texels).

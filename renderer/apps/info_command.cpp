@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "images/image_io.h"
 #include "renderer/apps/commands.h"
 #include "renderer/apps/picture_size.h"
 #include "renderer/apps/sizes.h"
@@ -26,6 +27,7 @@ std::string describe_memory(const Scene& scene, const World& world, const InfoOp
                                              : default_size(scene.cameras[world.cameras[0].camera]);
   settings.width = size.x;
   settings.height = size.y;
+  settings.memory_afterwards = image_library_bytes();
   try {
     return plan_build(scene, world, settings).describe();
   } catch (const std::runtime_error& error) {

@@ -268,6 +268,7 @@ int render(RenderOptions o) {
   if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
   o.settings.width = size.x;
   o.settings.height = size.y;
+  o.settings.memory_afterwards = image_library_bytes();
   const std::string key = o.checkpoint.empty() && o.resume.empty() ? "" : checkpoint_key(o);
   seconds.load = lap(clock);
 

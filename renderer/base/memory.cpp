@@ -32,19 +32,44 @@ std::size_t read_meminfo(std::string_view key) {
   return std::numeric_limits<std::size_t>::max();
 }
 
-// What the control group of the process, and those around it, leave free (version 2; /proc/self/cgroup says
-// "0::/path").
+// Where the control groups of memory are, and what the two versions call their files (Linux,
+// admin-guide/cgroup-v2 and cgroup-v1/memory). "inactive" is what files were read into and nobody reads now,
+// which is given back before anything fails.
+struct GroupFiles {
+  std::string root, most, now, inactive;
+};
+const GroupFiles kVersion2{"/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
+const GroupFiles kVersion1{"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+                           "total_inactive_file"};
+
+std::size_t free_in_group(const std::string& folder, const GroupFiles& files) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  const std::size_t most = read_bytes(folder + files.most), now = read_bytes(folder + files.now);
+  if (most == kNone || now == kNone) return kNone;
+  std::size_t inactive = 0;
+  std::ifstream file(folder + "memory.stat");
+  std::string key;
+  for (std::size_t value; file >> key >> value;)
+    if (key == files.inactive) inactive = value;
+  return most - std::min(most, now - std::min(now, inactive));
+}
+
+// What the control group of the process, and those around it, leave free. A line of /proc/self/cgroup is
+// number:controllers:/path, the number 0 and no controllers in version 2.
 std::size_t free_in_groups() {
   std::size_t least = std::numeric_limits<std::size_t>::max();
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("0::/")) continue;
-    for (std::string path = line.substr(3); !path.empty(); path.erase(path.rfind('/'))) {
-      const std::string folder = "/sys/fs/cgroup" + path;
-      const std::size_t most = read_bytes(folder + "/memory.max");
-      const std::size_t now = read_bytes(folder + "/memory.current");
-      if (now <= most && most != std::numeric_limits<std::size_t>::max()) least = std::min(least, most - now);
-    }
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
+    const bool is_version2 = line.starts_with("0::");
+    if (!is_version2 && controllers.find(",memory,") == std::string::npos) continue;
+    const GroupFiles& files = is_version2 ? kVersion2 : kVersion1;
+    for (std::string path = line.substr(second + 1); path.starts_with('/'); path.erase(path.rfind('/')))
+      least = std::min(least, free_in_group(files.root + path + "/", files));
+    least =
+        std::min(least, free_in_group(files.root + "/", files));  // in a container the path may lead astray
   }
   return least;
 }

@@ -5,6 +5,8 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace parian {
 namespace {
 
@@ -45,6 +47,15 @@ int thread_count() { return limit().threads; }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
   run_loop(count, grain, body, tbb::simple_partitioner());
+}
+
+void parallel_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
+  const auto chunk = [&](std::size_t i) {
+    body(i * kParallelChunk, std::min(count, (i + 1) * kParallelChunk));
+  };
+  const std::size_t chunks = (count + kParallelChunk - 1) / kParallelChunk;
+  if (chunks == 1) return chunk(0);
+  parallel_for(chunks, 1, chunk);
 }
 
 struct ParallelLoop::Memory {

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 
 #include "renderer/base/error.h"
+#include "renderer/base/file.h"
 #include "renderer/base/parallel.h"
 
 namespace parian {
 namespace {
 
-namespace fs = std::filesystem;
 namespace OCIO = OCIO_NAMESPACE;
 
 // Beyond the largest half there is nothing to see but white, and configs are not made for it.

@@ -18,15 +18,13 @@ struct Sums {
 
 /// Of the tetrahedra between triangles and `centre`; the area twice, the volume six times.
 Sums sum(const Primitive& primitive, const Vec3d& centre) {
-  constexpr std::size_t kChunk = 1 << 16;
-  const std::size_t count = primitive.triangles.size(), chunks = (count + kChunk - 1) / kChunk;
-  std::vector<Sums> parts(chunks);
-  parallel_for(chunks, 1, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
+  std::vector<Sums> parts(primitive.triangles.size() / kParallelChunk + 1);
+  parallel_chunks(primitive.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = primitive.triangles[i];
       const auto vertex = [&](std::size_t k) { return Vec3d(primitive.positions[t[k]]) - centre; };
       const Vec3d a = vertex(0), normal = (vertex(1) - a).cross(vertex(2) - a);
-      parts[chunk] += {normal, normal.length(), a.dot(normal)};
+      parts[begin / kParallelChunk] += {normal, normal.length(), a.dot(normal)};
     }
   });
   Sums total;

@@ -12,7 +12,6 @@
 namespace parian {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t(1) << 16;
 constexpr std::size_t kMaxVertices = std::numeric_limits<std::uint32_t>::max();
 
 class MeshValidation {
@@ -24,9 +23,8 @@ class MeshValidation {
   void check_elements(const SharedArray<T>& array, const std::string& where, const char* expected,
                       const Predicate& holds) {
     if (array.empty() || !seen_.insert({array.data(), array.size(), expected}).second) return;
-    parallel_for((array.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-      const std::size_t end = std::min(array.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i) {
+    parallel_chunks(array.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
         if (!holds(array[i])) check_.fail(fmt::format("{}/{}", where, i), expected);
       }
     });
@@ -72,9 +70,8 @@ class MeshValidation {
         triangles_for_.try_emplace({p.triangles.data(), p.triangles.size()}, vertices);
     if (!is_new && known->second <= vertices) return;
     known->second = vertices;
-    parallel_for((p.triangles.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-      const std::size_t end = std::min(p.triangles.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i) {
+    parallel_chunks(p.triangles.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
         const auto& [a, b, c] = p.triangles[i];
         if (std::max({a, b, c}) >= vertices) {
           check_.fail(fmt::format("{}/{}", where, i),

@@ -25,10 +25,8 @@ void check_matrix(const Imath::M44f& m, const std::string& where, const Check& c
 // Millions, whose places are not written out for nothing.
 void check_instances(const SharedArray<InstanceTransform>& instances, const std::string& where,
                      const Check& check) {
-  constexpr std::size_t kChunk = 1 << 12;
-  parallel_for((instances.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-    const std::size_t end = std::min(instances.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+  parallel_chunks(instances.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const InstanceTransform& t = instances[i];
       if (!Check::is_rotation(t.rotation) || !is_finite(t.translation) || !is_finite(t.scale))
         check_transform(t, fmt::format("{}/{}", where, i), check);

@@ -48,12 +48,12 @@ LightTableBytes estimate_lights(const World& world, LightChoice choice) {
   return light_table_bytes(lights, choice, std::max<std::size_t>(1, slots));
 }
 
-void estimate(BuildPlan& plan, const Scene& scene, const World& world) {
+void estimate(BuildPlan& plan, const Scene& scene, const World& world, std::size_t afterwards) {
   plan.accel_memory = estimate_memory(scene, world, plan.accel);
-  // One after the other: the BVH, the lights, the film.
+  // One after the other: the BVH, the lights, the film and what comes then.
   const std::size_t held = plan.accel_memory.held;
-  const std::size_t more =
-      std::max({plan.accel_memory.peak, held + plan.lights.peak, held + plan.lights.held + plan.film});
+  const std::size_t more = std::max(
+      {plan.accel_memory.peak, held + plan.lights.peak, held + plan.lights.held + plan.film + afterwards});
   plan.peak = std::max(peak_memory(), resident_memory() + more);
 }
 
@@ -75,15 +75,15 @@ BuildPlan plan_build(const Scene& scene, const World& world, const RenderSetting
   plan.film = Film::bytes(settings.width, settings.height, settings.layers);
   plan.accel.quality =
       settings.build ? *settings.build : worthwhile_quality(scene, world, expected_rays(settings));
-  estimate(plan, scene, world);
+  estimate(plan, scene, world, settings.memory_afterwards);
   const auto fits = [&] { return plan.peak <= memory_limit(); };
   if (!fits() && !settings.build && plan.accel.quality != BuildQuality::balanced) {
     plan.accel.quality = BuildQuality::balanced;
-    estimate(plan, scene, world);
+    estimate(plan, scene, world, settings.memory_afterwards);
   }
   if (!fits()) {
     plan.accel.compact = true;
-    estimate(plan, scene, world);
+    estimate(plan, scene, world, settings.memory_afterwards);
   }
   if (!fits())
     throw std::runtime_error(fmt::format("not enough memory: the render takes {}; the limit is {}",

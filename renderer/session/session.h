@@ -31,6 +31,7 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
+  std::size_t memory_afterwards = 0;  // what the process will take beside it all once the picture is there
   AccelSettings accel;                // but for the quality, which is
   std::optional<BuildQuality> build;  // absent: what pays
   LightChoice light_choice = LightChoice::tree;

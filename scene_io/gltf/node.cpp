@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/base/parallel.h"
 #include "scene_io/gltf/read.h"
 
 namespace parian {
@@ -75,7 +76,7 @@ SharedArray<InstanceTransform> read_instances(const tinygltf::Value& extension, 
   const std::size_t size = count.value_or(0);
   accessors.claim(size * sizeof(InstanceTransform), where);
   auto [array, data] = make_shared_array<InstanceTransform>(size);
-  for_chunks(size, [&, instances = data](std::size_t begin, std::size_t end) {
+  parallel_chunks(size, [&, instances = data](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       instances[i] = {};
       if (!translations.empty()) instances[i].translation = translations[i];

@@ -13,8 +13,6 @@
 namespace parian {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t(1) << 16;
-
 // The largest honest growth: a 1-byte index that becomes a 12-byte triangle of a strip, or a quantised 4-byte
 // rotation that becomes an instance transform. More means that accessors overlap.
 constexpr std::size_t kMaxGrowth = 64;
@@ -75,7 +73,7 @@ void check_finite(const SharedArray<Vector>& array, const GltfDocument& document
   constexpr std::size_t kSize = sizeof(Vector) / sizeof(float);
   if (array.empty()) return;
   const float* const values = &array[0][0];
-  for_chunks(array.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(array.size(), [&](std::size_t begin, std::size_t end) {
     if (all_finite(values + begin * kSize, (end - begin) * kSize)) return;
     std::size_t i = begin * kSize;
     while (std::isfinite(values[i])) ++i;
@@ -98,13 +96,6 @@ std::string type_name(int type) {
 }
 
 }  // namespace
-
-void for_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-  const auto chunk = [&](std::size_t i) { body(i * kChunk, std::min(count, (i + 1) * kChunk)); };
-  const std::size_t chunks = (count + kChunk - 1) / kChunk;
-  if (chunks == 1) return chunk(0);
-  parallel_for(chunks, 1, chunk);
-}
 
 AccessorReader::AccessorReader(const GltfDocument& document) : document_(document), claimable_(kSmallFile) {
   for (const auto& bytes : document.storage) claimable_ += kMaxGrowth * bytes.size();
@@ -151,7 +142,7 @@ SharedArray<Vector> AccessorReader::vectors(int number, Components components, c
   auto [array, out_data] = make_shared_array<Vector>(accessor.count);
   Vector* const out = out_data;
   constexpr std::size_t kStride = sizeof(Vector) / sizeof(float);
-  for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     if (!base.data) std::fill(out + begin, out + end, Vector(0));
     if (base.data) decode_floats(base, begin, end, &out[begin][0], kStride);
     for (std::size_t i = begin; dimension < int(Vector::dimensions()) && i < end; ++i) out[i][dimension] = 1;
@@ -208,7 +199,7 @@ AccessorReader::Indices AccessorReader::decode_indices(int number, const std::st
   require(document_, accessor.count * sizeof(std::uint32_t), where);
   auto [array, out_data] = make_shared_array<std::uint32_t>(accessor.count);
   std::uint32_t* const out = out_data;
-  for_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(accessor.count, [&](std::size_t begin, std::size_t end) {
     if (base.data) decode_integers(base, begin, end, out + begin);
     if (!base.data) std::fill(out + begin, out + end, 0);
   });
@@ -221,7 +212,7 @@ AccessorReader::Indices AccessorReader::decode_indices(int number, const std::st
 
 AccessorReader::Indices AccessorReader::checked(SharedArray<std::uint32_t> indices, int number) const {
   std::atomic<std::uint32_t> largest = 0;
-  for_chunks(indices.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(indices.size(), [&](std::size_t begin, std::size_t end) {
     std::uint32_t local = 0;
     for (std::size_t i = begin; i < end; ++i) local = std::max(local, indices[i]);
     std::uint32_t seen = largest;

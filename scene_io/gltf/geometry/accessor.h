@@ -60,7 +60,4 @@ class AccessorReader {
   std::map<int, Indices> indices_;
 };
 
-/// Calls body(begin, end) for chunks of [0, count), in parallel where there is more than one.
-void for_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
-
 }  // namespace parian

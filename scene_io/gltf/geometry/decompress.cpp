@@ -1,6 +1,7 @@
 #include "scene_io/gltf/geometry/decompress.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace parian {
@@ -8,18 +9,28 @@ namespace {
 
 constexpr std::size_t kSmallFile = std::size_t(64) << 20;
 
-}  // namespace
-
-DecodingBudget::DecodingBudget(const GltfDocument& document, std::size_t growth) : left_(kSmallFile) {
-  for (const auto& bytes : document.storage) left_ += growth * bytes.size();
+std::size_t file_bytes(const GltfDocument& document) {
+  std::size_t sum = 0;
+  for (const auto& bytes : document.storage) sum += bytes.size();
+  return sum;
 }
 
+}  // namespace
+
+DecodingBudget::DecodingBudget(const GltfDocument& document, std::size_t growth)
+    : file_(document.file),
+      room_(memory_limit() - std::min(memory_limit(), resident_memory())),
+      most_(kSmallFile + growth * file_bytes(document)) {}
+
 bool DecodingBudget::claim(std::size_t bytes) {
-  std::size_t left = left_;
+  std::size_t claimed = claimed_;
   do {
-    if (bytes > left) return false;
-  } while (!left_.compare_exchange_weak(left, left - bytes));
-  return true;
+    if (bytes > most_ - claimed) return false;
+  } while (!claimed_.compare_exchange_weak(claimed, claimed + bytes));
+  if (claimed + bytes <= room_) return true;
+  throw std::runtime_error(
+      fmt::format("not enough memory: decompressing {} takes more than the {} that are left", file_,
+                  format_bytes(double(room_))));
 }
 
 int add_buffer(GltfDocument& document, SharedArray<std::byte> bytes) {

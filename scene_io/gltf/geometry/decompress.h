@@ -24,11 +24,15 @@ bool is_compressed(const GltfDocument& document);
 class DecodingBudget {
  public:
   DecodingBudget(const GltfDocument& document, std::size_t growth);
-  /// False if that is more than is left. For any thread.
+  /// False if that is more than is left. Throws std::runtime_error where all that was claimed is more than
+  /// the memory limit left when decoding began. For any thread.
   bool claim(std::size_t bytes);
 
  private:
-  std::atomic<std::size_t> left_;
+  const std::string file_;
+  const std::size_t room_;  // in memory
+  const std::size_t most_;
+  std::atomic<std::size_t> claimed_{0};
 };
 
 /// Makes `bytes` a buffer of the document. Returns its index.

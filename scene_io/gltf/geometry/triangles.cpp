@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "renderer/base/parallel.h"
 #include "scene_io/gltf/read.h"
 
 namespace parian {
@@ -69,7 +70,7 @@ SharedArray<Triangle> read_triangles(AccessorReader& accessors, const GltfDocume
   accessors.claim(triangles * sizeof(Triangle), where);
   const auto owner = std::make_shared_for_overwrite<Triangle[]>(triangles);
   Triangle* const out = owner.get();
-  for_chunks(triangles, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(triangles, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       out[t] = corners(mode, std::uint32_t(t));
       if (indexed) out[t] = {index[out[t][0]], index[out[t][1]], index[out[t][2]]};

@@ -1,5 +1,7 @@
 #include "scene_io/gltf/pose/influence.h"
 
+#include "renderer/base/parallel.h"
+
 namespace parian {
 namespace {
 
@@ -50,7 +52,7 @@ class InfluenceReader {
   }
 
   void check(const Influences& set, const std::string& joints, const std::string& weights) const {
-    for_chunks(vertices_, [&](std::size_t begin, std::size_t end) {
+    parallel_chunks(vertices_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         for (int c = 0; c < 4; ++c) {
           if (set.joints[i][c] >= float(joints_)) {

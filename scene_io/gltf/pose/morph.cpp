@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "renderer/base/parallel.h"
 #include "scene_io/gltf/pose/deform.h"
 #include "scene_io/gltf/read.h"
 
@@ -56,13 +57,13 @@ struct Morph {
         std::copy(attribute.begin(), attribute.end(), sums.get());
       }
       const int moved = tinygltf::GetNumComponentsInType(std::uint32_t(type));
-      for_chunks(count, [&](std::size_t begin, std::size_t end) {
+      parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
           for (int c = 0; c < moved; ++c) sums[i][c] += weight * deltas[i][c];
       });
     });
     if (!sums) return;
-    for_chunks(count, [&](std::size_t begin, std::size_t end) {
+    parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         finish(sums[i]);
         for (int c = 0; c < int(Vector::dimensions()); ++c) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "renderer/base/parallel.h"
 #include "scene_io/gltf/pose/deform.h"
 #include "scene_io/gltf/pose/influence.h"
 
@@ -124,7 +125,7 @@ bool Skins::apply(int skin, const tinygltf::Primitive& source, const std::string
   const auto normals = make_like(primitive.normals, accessors_, where);
   const auto tangents = make_like(primitive.tangents, accessors_, where);
   std::atomic<std::size_t> mirrored = 0;
-  for_chunks(count, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
     std::size_t mirrored_here = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Affined map = blend(sets, joints, i);

@@ -41,6 +41,19 @@ TEST(ParallelFor, Nests) {
   EXPECT_EQ(visits, 600);
 }
 
+TEST(ParallelChunks, CoverEachIndexOnce) {
+  for (const std::size_t count : {std::size_t(0), std::size_t(1), kParallelChunk - 1, kParallelChunk,
+                                  kParallelChunk + 1, 3 * kParallelChunk, 3 * kParallelChunk + 5}) {
+    std::vector<std::atomic<std::uint8_t>> visits(count);
+    parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(begin % kParallelChunk, 0u);
+      EXPECT_TRUE(end - begin == kParallelChunk || end == count);
+      for (std::size_t i = begin; i < end; ++i) ++visits.at(i);
+    });
+    EXPECT_TRUE(std::ranges::all_of(visits, [](const auto& v) { return v == 1; })) << count;
+  }
+}
+
 TEST(ParallelLoop, VisitsEachIndexOnceEachTime) {
   for (const Partitioner partitioner :
        {Partitioner::automatic, Partitioner::fixed, Partitioner::simple, Partitioner::affinity}) {

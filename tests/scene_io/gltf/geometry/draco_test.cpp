@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "renderer/base/memory.h"
 #include "tests/scene_io/support/draco_builder.h"
 #include "tests/scene_io/support/gltf_builder.h"
 
@@ -203,6 +204,19 @@ TEST_F(GltfDraco, DecodesAStreamOnceForAllItsPrimitives) {
   EXPECT_EQ(primitives[0].positions.data(), primitives[1].positions.data());
   EXPECT_EQ(primitives[0].triangles.data(), primitives[1].triangles.data());
   EXPECT_TRUE(primitives[1].colors.empty());
+}
+
+TEST_F(GltfDraco, StaysWithinTheMemoryLimit) {
+  set_memory_limit(1);
+  try {
+    load(builder_.glb());
+    ADD_FAILURE() << "decompressed beyond the limit";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string_view(error.what()).find("not enough memory: decompressing"), std::string::npos)
+        << error.what();
+  }
+  set_memory_limit(available_memory());
+  EXPECT_NO_THROW(load(builder_.glb()));
 }
 
 TEST_F(GltfDraco, RefusesAnAccessorOfTwoStreams) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/base/memory.h"
 #include "tests/scene_io/support/gltf_builder.h"
 
 namespace parian {
@@ -349,6 +350,20 @@ TEST_F(GltfMeshopt, RefusesStreamsThatRepeatTheSameBytes) {
 }
 
 class NightlyGltfMeshopt : public GltfMeshopt {};
+
+TEST_F(GltfMeshopt, StaysWithinTheMemoryLimit) {
+  const std::string file = compressed_grid<std::uint16_t>().glb();
+  set_memory_limit(1);
+  try {
+    load(file);
+    ADD_FAILURE() << "decompressed beyond the limit";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string_view(error.what()).find("not enough memory: decompressing"), std::string::npos)
+        << error.what();
+  }
+  set_memory_limit(available_memory());
+  EXPECT_NO_THROW(load(file));
+}
 
 TEST_F(GltfMeshopt, SurvivesFlippedBytes) { flip_bytes(13); }
 TEST_F(NightlyGltfMeshopt, SurvivesEveryFlippedByte) { flip_bytes(1); }
