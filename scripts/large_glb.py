@@ -48,7 +48,7 @@ class GlbWriter:
         self.file = open(self.part, "wb")
         self.size = 0  # of the binary chunk
         self.arrays: dict[str, list[dict[str, Any]]] = {}
-        self.used = {"EXT_lights_environment", "KHR_materials_specular"}
+        self.used = {"KHR_materials_specular"}
 
     def append(self, array: str, item: dict[str, Any]) -> int:
         items = self.arrays.setdefault(array, [])
@@ -100,16 +100,19 @@ class GlbWriter:
             node["rotation"] = list(turn)
         return self.append("nodes", node)
 
-    def finish(self) -> None:
+    def finish(self, with_sky: bool = True) -> None:
         """Adds the sky, and puts the JSON into its room. All nodes are roots. Throws TooLarge."""
-        sky_image = self.picture(environment_hdr(128, 64, sky), "image/vnd.radiance")
-        environment = {"environments": [{"source": sky_image, "intensity": 1}]}
-        scene = {"nodes": list(range(len(self.arrays["nodes"])))}
-        scene["extensions"] = {"EXT_lights_environment": {"environment": 0}}
+        scene: dict[str, Any] = {"nodes": list(range(len(self.arrays["nodes"])))}
+        top: dict[str, Any] = {}
+        if with_sky:
+            sky_image = self.picture(environment_hdr(128, 64, sky), "image/vnd.radiance")
+            top = {"EXT_lights_environment": {"environments": [{"source": sky_image, "intensity": 1}]}}
+            scene["extensions"] = {"EXT_lights_environment": {"environment": 0}}
+            self.used.add("EXT_lights_environment")
         gltf = {
             "asset": {"version": "2.0", "generator": "Parian scripts/make_mesh.py"},
             "extensionsUsed": sorted(self.used),
-            "extensions": {"EXT_lights_environment": environment},
+            **({"extensions": top} if top else {}),
             "scene": 0,
             "scenes": [scene],
             **self.arrays,

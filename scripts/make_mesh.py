@@ -64,6 +64,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--textured", action="store_true", help="texture coordinates and pictures")
     parser.add_argument("--instances", type=int, metavar="M", help="forest: how many trees (1 to 10000000)")
     parser.add_argument("--loose", type=float, metavar="SHARE", default=0.2, help="soup: of loose triangles (.2)")
+    parser.add_argument("--no-sky", action="store_true", help="no image in the file: Parian adds a white sky")
     parser.add_argument("--no-numpy", action="store_true", help="sphere: do without numpy")
     args = parser.parse_args()
     if args.triangles < 1 or args.triangles > 10**12:
@@ -85,7 +86,7 @@ def main() -> None:
     writer = GlbWriter(args.out, (1 << 16) + 1000 * pieces)
     try:
         text = write(writer, args)
-        writer.finish()
+        writer.finish(not args.no_sky)
     except TooLarge as error:
         sys.exit(str(error))
     finally:
