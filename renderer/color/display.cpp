@@ -102,21 +102,27 @@ float finite(float value, float low, float high) {
 
 std::vector<std::string> display_views() { return load_config().views; }
 
-Picture apply_display(const Picture& linear, const std::string& view, float exposure) {
+struct DisplayProcessor {
+  OCIO::ConstCPUProcessorRcPtr ocio;
+};
+
+Display::Display(const std::string& view, bool fast) {
   const Config config = load_config();
   if (!view.empty() && std::find(config.views.begin(), config.views.end(), view) == config.views.end())
     throw UsageError(
         fmt::format("no view \"{}\" in {}; there are: {}", view, config.path, joined(config.views)));
-
-  OCIO::ConstCPUProcessorRcPtr processor;
   try {
     const auto transform = view_transform(config, view.empty() ? config.views.front() : view);
     // Without the library's approximations of log and pow: the same picture looks the same on every machine.
-    processor = config.ocio->getProcessor(transform)->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+    const auto optimization = fast ? OCIO::OPTIMIZATION_DEFAULT : OCIO::OPTIMIZATION_LOSSLESS;
+    processor_ = std::make_shared<DisplayProcessor>(
+        config.ocio->getProcessor(transform)->getOptimizedCPUProcessor(optimization));
   } catch (const OCIO::Exception& error) {
     fail(config.path, error);
   }
+}
 
+Picture Display::apply(const Picture& linear, float exposure) const {
   std::size_t index[3];
   const std::string names[3] = {"R", "G", "B"};
   for (int c = 0; c < 3; ++c) {
@@ -138,10 +144,14 @@ Picture apply_display(const Picture& linear, const std::string& view, float expo
       for (int c = 0; c < 3; ++c)
         row[3 * x + c] = finite(linear.at(x, int(y))[index[c]] * scale, -kLargest, kLargest);
     OCIO::PackedImageDesc pixels(row, linear.width, 1, 3);
-    processor->apply(pixels);
+    processor_->ocio->apply(pixels);
     for (int i = 0; i < 3 * linear.width; ++i) row[i] = finite(row[i], 0, 1);
   });
   return shown;
+}
+
+Picture apply_display(const Picture& linear, const std::string& view, float exposure) {
+  return Display(view).apply(linear, exposure);
 }
 
 }  // namespace parian
