@@ -100,7 +100,7 @@ std::vector<Property> environment_properties() {
   list.radiance(
       {"color", "Colour", "", 0, 1}, {"radiance", "Radiance", "W/(m^2 sr)", 0, kMost, 0.1},
       [](auto& e) -> auto& { return e.radiance; });
-  list.add(PropertyKind::angle, {"rotation", "Turn about y", "degrees", -360, 360, 5}, turn_of,
+  list.add(PropertyKind::angle, {"rotation", "Turn about y", "degrees", -180, 180, 5}, turn_of,
            [](Environment& e, const PropertyValue& v) { set_turn(e, std::get<double>(v)); });
   return std::move(list).take();
 }

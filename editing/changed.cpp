@@ -49,11 +49,10 @@ unsigned find_changed_meshes(const Scene& before, const Scene& after, const Scen
     const Mesh& a = before.meshes[i];
     Mesh b = after.meshes[i];
     if (!differ(a, b)) return;
-    changed |= kChangedMaterials;
     if (a.primitives.size() == b.primitives.size())
       for (std::size_t p = 0; p < a.primitives.size(); ++p)
         b.primitives[p].material = a.primitives[p].material;
-    if (differ(a, b)) changed |= kChangedGeometry;
+    changed |= differ(a, b) ? kChangedGeometry : kChangedMaterials;
   });
   return changed;
 }

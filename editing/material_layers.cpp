@@ -12,7 +12,7 @@ void add_transmission(List& list, const Material& m) {
   list.part(
       "transmission", "Transmission", [](auto& x) -> auto& { return x.transmission; });
   if (!m.transmission) return;
-  list.only_for([](const Material& x) { return x.transmission.has_value(); });
+  list.narrow([](const Material& x) { return x.transmission.has_value(); });
   list.number(
       {"transmission.factor", "Transmission: share"},
       [](auto& x) -> auto& { return x.transmission->factor; });
@@ -27,7 +27,7 @@ void add_volume(List& list, const Material& m) {
         x.volume = x.volume ? std::nullopt : std::optional<Volume>(Volume{});
       });
   if (!m.volume) return;
-  list.only_for([](const Material& x) { return x.volume.has_value(); });
+  list.narrow([](const Material& x) { return x.volume.has_value(); });
   list.number(
       {"volume.thickness", "Volume: thickness (0: thin walls)", "m", 0, kMost},
       [](auto& x) -> auto& { return x.volume->thickness; });
@@ -43,11 +43,11 @@ void add_volume(List& list, const Material& m) {
 
 void add_scatter(List& list, const Material& m) {
   if (!m.volume) return;
-  list.only_for([](const Material& x) { return x.volume && !x.subsurface; });
+  list.narrow([](const Material& x) { return x.volume && !x.subsurface; });
   list.part(
       "scatter", "Scattering", [](auto& x) -> auto& { return x.scatter; });
   if (!m.scatter) return;
-  list.only_for([](const Material& x) { return x.scatter.has_value(); });
+  list.narrow([](const Material& x) { return x.scatter.has_value(); });
   list.color(
       {"scatter.multiscatter_color", "Scattering: colour"},
       [](auto& x) -> auto& { return x.scatter->multiscatter_color; });
@@ -62,7 +62,7 @@ void add_diffuse_transmission(List& list, const Material& m) {
       "diffuse_transmission", "Diffuse transmission",
       [](auto& x) -> auto& { return x.diffuse_transmission; });
   if (!m.diffuse_transmission) return;
-  list.only_for([](const Material& x) { return x.diffuse_transmission.has_value(); });
+  list.narrow([](const Material& x) { return x.diffuse_transmission.has_value(); });
   list.number(
       {"diffuse_transmission.factor", "Diffuse transmission: share"},
       [](auto& x) -> auto& { return x.diffuse_transmission->factor; });
@@ -75,7 +75,7 @@ void add_clearcoat(List& list, const Material& m) {
   list.part(
       "clearcoat", "Clear coat", [](auto& x) -> auto& { return x.clearcoat; });
   if (!m.clearcoat) return;
-  list.only_for([](const Material& x) { return x.clearcoat.has_value(); });
+  list.narrow([](const Material& x) { return x.clearcoat.has_value(); });
   list.number(
       {"clearcoat.factor", "Clear coat: share"}, [](auto& x) -> auto& { return x.clearcoat->factor; });
   list.number(
@@ -91,7 +91,7 @@ void add_sheen(List& list, const Material& m) {
   list.part(
       "sheen", "Sheen", [](auto& x) -> auto& { return x.sheen; });
   if (!m.sheen) return;
-  list.only_for([](const Material& x) { return x.sheen.has_value(); });
+  list.narrow([](const Material& x) { return x.sheen.has_value(); });
   list.color(
       {"sheen.color", "Sheen: colour"}, [](auto& x) -> auto& { return x.sheen->color; });
   list.number(
@@ -102,7 +102,7 @@ void add_anisotropy(List& list, const Material& m) {
   list.part(
       "anisotropy", "Anisotropy", [](auto& x) -> auto& { return x.anisotropy; });
   if (!m.anisotropy) return;
-  list.only_for([](const Material& x) { return x.anisotropy.has_value(); });
+  list.narrow([](const Material& x) { return x.anisotropy.has_value(); });
   list.number(
       {"anisotropy.strength", "Anisotropy: strength"},
       [](auto& x) -> auto& { return x.anisotropy->strength; });
@@ -115,7 +115,7 @@ void add_iridescence(List& list, const Material& m) {
   list.part(
       "iridescence", "Iridescence", [](auto& x) -> auto& { return x.iridescence; });
   if (!m.iridescence) return;
-  list.only_for([](const Material& x) { return x.iridescence.has_value(); });
+  list.narrow([](const Material& x) { return x.iridescence.has_value(); });
   list.number(
       {"iridescence.factor", "Iridescence: share"}, [](auto& x) -> auto& { return x.iridescence->factor; });
   list.number(

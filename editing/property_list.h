@@ -65,6 +65,10 @@ class PropertyList {
 
   /// The properties that follow are for elements for which this holds.
   void only_for(Applies applies) { applies_ = std::move(applies); }
+  /// The same, of those of which it was said before.
+  void narrow(Applies more) {
+    applies_ = [before = applies_, more](const Element& e) { return (!before || before(e)) && more(e); };
+  }
 
   /// The general case: `put` is called with a value that fits the kind and the range, on a copy, and may
   /// refuse it.
