@@ -25,8 +25,9 @@ SEES = {
     "integrators": ["base", "scene", "shapes", "light", "film", "accel", "session", "materials"],
     "images": ["base", "scene"],
     "scene_io": ["base", "scene", "images"],
+    "editing": ["base", "shapes", "scene", "session", "images", "scene_io"],
     "apps": ["base", "scene", "shapes", "light", "color", "film", "accel", "session", "materials",
-             "integrators", "images", "scene_io", "compare"],
+             "integrators", "images", "scene_io", "editing", "compare"],
 }  # fmt: skip
 
 # Headers of third-party libraries by pattern, and the paths they may be included from. "" is everywhere.
@@ -49,7 +50,7 @@ HOMES = [
 SYSTEM = re.compile(r"(sys/\w+|unistd|fcntl|signal|pthread|sched|dlfcn|termios|\wmmintrin|x86intrin)\.h$")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-FOLDERS = ["renderer", "images", "scene_io", "materials", "integrators", "tests"]
+FOLDERS = ["renderer", "images", "scene_io", "editing", "materials", "integrators", "tests"]
 
 
 def layer_of(path):

@@ -299,6 +299,7 @@ struct Node {
   int shape = kNone, shape_material = kNone;  // PARIAN_shape: both, or neither
   SharedArray<InstanceTransform>
       instances;  // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
+  bool visible = true;
   bool operator==(const Node&) const = default;
 };
 
