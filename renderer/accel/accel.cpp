@@ -1,69 +1,13 @@
+/// The queries: rays to Embree, and hits back.
 #include "renderer/accel/accel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cassert>
-#include <optional>
-#include <stdexcept>
-#include <vector>
 
-#include "renderer/accel/mesh_uses.h"
-#include "renderer/accel/query.h"
-#include "renderer/accel/solid_geometry.h"
-#include "renderer/accel/triangle_pairs.h"
-#include "renderer/base/parallel.h"
+#include "renderer/accel/accel_impl.h"
 
 namespace parian {
 namespace {
-
-constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
-
-/// What Embree reads of a part while its geometry lives, and what takes a hit back to a triangle. The scene
-/// may be replaced by an edited one, so the arrays are held here.
-struct TracedMesh {
-  const Part* part = nullptr;  // of the world as it is now
-  SharedArray<Triangle> triangles;
-  SharedArray<Vec3f> positions;
-  std::optional<TrianglePairs> pairs;  // absent: Embree has the triangles themselves
-
-  TrianglePoint point(std::uint32_t primitive, float u, float v) const {
-    return pairs ? pairs->point(primitive, u, v) : TrianglePoint{primitive, u, v};
-  }
-};
-
-/// Calls keep(i) for each hit that Embree asks about, and turns it away where that is false.
-template <class Keep>
-void filter_hits(const RTCFilterFunctionNArguments* a, const Keep& keep) {
-  for (unsigned i = 0; i < a->N; ++i)
-    if (a->valid[i] == -1 && !keep(i)) a->valid[i] = 0;
-}
-
-/// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that
-/// a triangle met twice by one ray decides alike.
-void alpha_filter(const RTCFilterFunctionNArguments* a) {
-  const TracedMesh& mesh = *static_cast<const TracedMesh*>(a->geometryUserPtr);
-  const auto* query = static_cast<const Query*>(a->context);
-  filter_hits(a, [&](unsigned i) {
-    const TrianglePoint p =
-        mesh.point(RTCHitN_primID(a->hit, a->N, i), RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
-    const float coverage = eval_coverage(*query->scene, *mesh.part, p.triangle, p.u, p.v);
-    const std::uint32_t top = RTCHitN_instID(a->hit, a->N, i, 0);
-    const std::uint32_t where = hash32(p.triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
-    return query->meets(RTCRayN_id(a->ray, a->N, i), where, coverage);
-  });
-}
-
-/// Cuts the disk out of its quad.
-void disk_filter(const RTCFilterFunctionNArguments* a) {
-  const auto* lights = static_cast<const std::vector<AreaLight>*>(a->geometryUserPtr);
-  filter_hits(a, [&](unsigned i) {
-    if (!(*lights)[RTCHitN_primID(a->hit, a->N, i)].disk) return true;
-    const float x = RTCHitN_u(a->hit, a->N, i) - 0.5f, y = RTCHitN_v(a->hit, a->N, i) - 0.5f;
-    return x * x + y * y <= 0.25f;
-  });
-}
 
 void set_ray(RTCRay& r, const Ray& ray) {
   r.org_x = ray.o.x;
@@ -111,308 +55,14 @@ Lanes set_rays(RTCRay16& r, const RayPacket& rays) {
   return lanes;
 }
 
-bool memory_monitor(void* user, ssize_t bytes, bool) {
-  static_cast<std::atomic<std::ptrdiff_t>*>(user)->fetch_add(bytes);
-  return true;
-}
-
 }  // namespace
 
-struct Accel::Impl {
-  // A top-level geometry id means: a primitive in world space, an instance of a mesh, all area lights, or
-  // (placement kSolid) the solids of solid_geometries[primitive].
-  struct TopEntry {
-    std::uint32_t placement, primitive;
-  };
-
-  const Scene* scene;
-  const World* world;
-  AccelSettings settings;
-  MeshUses uses;
-  std::atomic<std::ptrdiff_t> bytes{0};
-  BuildCounts builds;
-  RTCDevice device = nullptr;
-  RTCScene top = nullptr;
-  std::vector<RTCScene> mesh_scenes;    // by mesh; null where the mesh is not instanced
-  std::vector<TopEntry> entries;        // by geometry id of the top level
-  std::vector<TracedMesh> traced;       // by part
-  std::vector<RTCGeometry> geometries;  // by geometry id of the top level; the top-level scene owns them
-  std::vector<SolidGeometry> solid_geometries;
-
-  Impl(const Scene& s, const World& w, const AccelSettings& a)
-      : scene(&s), world(&w), settings(a), uses(find_mesh_uses(s, w, a)), traced(w.parts.size()) {
-    device = rtcNewDevice(fmt::format("threads={}", thread_count()).c_str());
-    if (!device) throw std::runtime_error("Embree: no device");
-    rtcSetDeviceMemoryMonitorFunction(device, memory_monitor, &bytes);
-    top = new_scene();
-    build_meshes();
-    build_top();
-    for (TracedMesh& mesh : traced)
-      if (mesh.pairs) find_origins(*mesh.pairs, mesh.triangles);
-  }
-
-  ~Impl() {
-    for (RTCScene mesh : mesh_scenes)
-      if (mesh) rtcReleaseScene(mesh);
-    if (top) rtcReleaseScene(top);
-    if (device) rtcReleaseDevice(device);
-  }
-
-  RTCBuildQuality quality() const {
-    return settings.quality == BuildQuality::fast ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
-  }
-
-  static bool report_progress(void* user, double share) {
-    static_cast<const AccelSettings*>(user)->on_progress(share);
-    return true;
-  }
-
-  /// Robust: without it rays slip through shared edges.
-  RTCScene new_scene() const {
-    RTCScene result = rtcNewScene(device);
-    // What only media need, others do not pay for.
-    rtcSetSceneFlags(result, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (world->media.empty() ? 0 : kVisitable) |
-                                           (settings.compact ? RTC_SCENE_FLAG_COMPACT : 0)));
-    rtcSetSceneBuildQuality(result, quality());
-    if (settings.on_progress)
-      rtcSetSceneProgressMonitorFunction(result, report_progress, const_cast<AccelSettings*>(&settings));
-    return result;
-  }
-
-  void check(const char* what) const {
-    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-      throw std::runtime_error(fmt::format("Embree: {} failed with error {}", what, int(error)));
-  }
-
-  /// `normal()` is what Embree reports as the normal.
-  template <class Normal>
-  Hit to_hit(float t, float u, float v, unsigned instance, unsigned geometry, unsigned triangle,
-             const Normal& normal) const {
-    if (geometry == kInvalid) return {t, u, v, Hit::kMiss, 0, 0, 0};
-    const bool instanced = instance != kInvalid;
-    const TopEntry& entry = entries[instanced ? instance : geometry];
-    if (entry.placement == Hit::kSolid) [[unlikely]]
-      return to_solid_hit(solid_geometries[entry.primitive], t, triangle, u, normal());
-    const std::uint32_t primitive = instanced ? geometry : entry.primitive;
-    if (!uses.paired || entry.placement == Hit::kAreaLightHit)
-      return {t, u, v, entry.placement, primitive, triangle, 0};
-    const TrianglePoint p =
-        traced[world->placements[entry.placement].first_part + primitive].point(triangle, u, v);
-    return {t, p.u, p.v, entry.placement, primitive, p.triangle, 0};
-  }
-
-  /// Keeps every hit that Embree shows, and lets it look on.
-  static void collect(const RTCFilterFunctionNArguments* a) {
-    Crossings& crossings = *static_cast<const Query*>(a->context)->crossings;
-    const Impl& accel = *static_cast<const Impl*>(crossings.accel);
-    filter_hits(a, [&](unsigned i) {
-      crossings.add(accel.to_hit(RTCRayN_tfar(a->ray, a->N, i), RTCHitN_u(a->hit, a->N, i),
-                                 RTCHitN_v(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0),
-                                 RTCHitN_geomID(a->hit, a->N, i), RTCHitN_primID(a->hit, a->N, i),
-                                 [] { return Vec3f(0); }));
-      return false;
-    });
-  }
-
-  RTCGeometry new_mesh(std::uint32_t part, const Affine* to_world) {
-    TracedMesh& mesh = traced[part];
-    mesh.part = &world->parts[part];
-    mesh.triangles = mesh.part->primitive->triangles;
-    mesh.positions = mesh.part->primitive->positions;
-    if (uses.paired && !mesh.pairs) mesh.pairs = pair_triangles(mesh.triangles);  // once for all copies
-    RTCGeometry geometry =
-        rtcNewGeometry(device, mesh.pairs ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (mesh.pairs)
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                                 mesh.pairs->quads.data(), 0, sizeof(Quad), mesh.pairs->quads.size());
-    else
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(),
-                                 0, sizeof(Triangle), mesh.triangles.size());
-    set_vertices(geometry, mesh.positions, to_world);
-    rtcSetGeometryUserData(geometry, &mesh);
-    if (mesh.part->alpha) {
-      rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
-      rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
-    }
-    rtcSetGeometryBuildQuality(geometry, quality());
-    rtcCommitGeometry(geometry);
-    ++builds.meshes;
-    return geometry;
-  }
-
-  /// Embree reads 16 bytes at the last vertex, so memory that was not laid out for it is copied.
-  void set_vertices(RTCGeometry geometry, const SharedArray<Vec3f>& positions, const Affine* to_world) {
-    if (!copies_vertices(positions, to_world))
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
-                                 sizeof(Vec3f), positions.size());
-    else
-      fill_vertices(geometry, positions, to_world);
-  }
-
-  void fill_vertices(RTCGeometry geometry, const SharedArray<Vec3f>& positions, const Affine* to_world) {
-    auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size()));
-    check("allocating vertices");
-    constexpr std::size_t kChunk = 1 << 16;
-    parallel_for((positions.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-      const std::size_t end = std::min(positions.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i)
-        out[i] = to_world ? to_world->point(positions[i]) : positions[i];
-    });
-  }
-
-  void build_meshes() {
-    mesh_scenes.assign(uses.instanced.size(), nullptr);
-    for (const Placement& p : world->placements) {
-      if (mesh_scenes[p.mesh] || !uses.instanced[p.mesh]) continue;
-      RTCScene mesh = new_scene();
-      for (std::uint32_t i = 0; i < p.part_count; ++i) {
-        RTCGeometry geometry = new_mesh(p.first_part + i, nullptr);
-        rtcAttachGeometryByID(mesh, geometry, i);
-        rtcReleaseGeometry(geometry);
-      }
-      rtcCommitScene(mesh);
-      check("building a mesh");
-      mesh_scenes[p.mesh] = mesh;
-    }
-  }
-
-  void attach(RTCGeometry geometry, std::uint32_t placement, std::uint32_t primitive) {
-    rtcAttachGeometryByID(top, geometry, unsigned(entries.size()));
-    rtcReleaseGeometry(geometry);
-    entries.push_back({placement, primitive});
-    geometries.push_back(geometry);
-  }
-
-  /// By placement; null where the mesh is not instanced. Millions, so in parallel.
-  std::vector<RTCGeometry> make_instances() const {
-    std::vector<RTCGeometry> instances(world->placements.size(), nullptr);
-    constexpr std::size_t kGrain = 256;
-    parallel_for(instances.size(), kGrain, [&](std::size_t i) {
-      const Placement& p = world->placements[i];
-      if (!mesh_scenes[p.mesh]) return;
-      instances[i] = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instances[i], mesh_scenes[p.mesh]);
-      set_instance_transform(instances[i], p.to_world);
-    });
-    return instances;
-  }
-
-  void build_top() {
-    const std::vector<RTCGeometry> instances = make_instances();
-    for (std::uint32_t i = 0; i < world->placements.size(); ++i) {
-      const Placement& p = world->placements[i];
-      if (instances[i]) {
-        attach(instances[i], i, 0);
-      } else {
-        for (std::uint32_t k = 0; k < p.part_count; ++k)
-          attach(new_mesh(p.first_part + k, p.identity ? nullptr : &p.to_world), i, k);
-      }
-    }
-    if (!world->area_lights.empty()) {
-      RTCGeometry quads = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-      rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
-                              4 * world->area_lights.size());
-      auto* indices = static_cast<std::uint32_t*>(
-          rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                                  4 * sizeof(std::uint32_t), world->area_lights.size()));
-      for (std::uint32_t i = 0; i < 4 * world->area_lights.size(); ++i) indices[i] = i;
-      set_area_lights(quads);
-      attach(quads, Hit::kAreaLightHit, 0);
-    }
-    solid_geometries = sort_solids(*world);
-    for (std::uint32_t i = 0; i < solid_geometries.size(); ++i) {
-      RTCGeometry geometry = new_solid_geometry(device, solid_geometries[i]);
-      rtcCommitGeometry(geometry);
-      attach(geometry, Hit::kSolid, i);
-    }
-    commit_top();
-  }
-
-  void commit_top() {
-    rtcCommitScene(top);
-    check("building the scene");
-    ++builds.top_level;
-  }
-
-  static void set_instance_transform(RTCGeometry instance, const Affine& to_world) {
-    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &to_world);
-    rtcCommitGeometry(instance);
-  }
-
-  void set_area_lights(RTCGeometry quads) {
-    auto* vertices = static_cast<Vec3f*>(rtcGetGeometryBufferData(quads, RTC_BUFFER_TYPE_VERTEX, 0));
-    bool disks = false;
-    for (std::size_t i = 0; i < world->area_lights.size(); ++i) {
-      const AreaLight& light = world->area_lights[i];
-      vertices[4 * i + 0] = light.center - light.half_x - light.half_y;
-      vertices[4 * i + 1] = light.center + light.half_x - light.half_y;
-      vertices[4 * i + 2] = light.center + light.half_x + light.half_y;
-      vertices[4 * i + 3] = light.center - light.half_x + light.half_y;
-      disks |= light.disk;
-    }
-    rtcSetGeometryUserData(quads, const_cast<void*>(static_cast<const void*>(&world->area_lights)));
-    rtcSetGeometryIntersectFilterFunction(quads, disks ? disk_filter : nullptr);
-    rtcSetGeometryOccludedFilterFunction(quads, disks ? disk_filter : nullptr);
-    rtcUpdateGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0);
-    rtcCommitGeometry(quads);
-  }
-};
-
-Accel::Accel(const Scene& scene, const World& world, const AccelSettings& settings)
-    : impl_(std::make_unique<Impl>(scene, world, settings)) {}
-
-Accel::~Accel() = default;
-
-void Accel::rebind(const Scene& scene, const World& world) {
-  impl_->scene = &scene;
-  impl_->world = &world;
-  // Filters hold pointers into the world.
-  for (std::size_t id = 0; id < impl_->entries.size(); ++id) {
-    const auto [placement, primitive] = impl_->entries[id];
-    RTCGeometry geometry = impl_->geometries[id];
-    if (placement == Hit::kAreaLightHit) {
-      impl_->set_area_lights(geometry);
-    } else if (placement == Hit::kSolid) {
-      impl_->solid_geometries[primitive].world = &world;
-    }
-  }
-  for (std::size_t i = 0; i < impl_->traced.size(); ++i) impl_->traced[i].part = &world.parts[i];
-}
-
-void Accel::update_transforms(const Scene& scene, const World& world) {
-  const World& before = *impl_->world;
-  std::vector<Affine> old;
-  for (const Placement& p : before.placements) old.push_back(p.to_world);
-  rebind(scene, world);
-  for (std::size_t id = 0; id < impl_->entries.size(); ++id) {
-    const auto [placement, primitive] = impl_->entries[id];
-    if (placement == Hit::kAreaLightHit) continue;
-    if (placement == Hit::kSolid) {
-      fill_solids(impl_->solid_geometries[primitive], world);
-      rtcCommitGeometry(impl_->geometries[id]);
-      continue;
-    }
-    const Placement& p = world.placements[placement];
-    if (old[placement] == p.to_world) continue;
-    RTCGeometry geometry = impl_->geometries[id];
-    if (impl_->mesh_scenes[p.mesh]) {
-      Impl::set_instance_transform(geometry, p.to_world);
-    } else {
-      impl_->set_vertices(geometry, world.part(placement, primitive).primitive->positions, &p.to_world);
-      rtcCommitGeometry(geometry);
-      ++impl_->builds.meshes;
-    }
-  }
-  impl_->commit_top();
-}
-
 bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
-  Query query(impl_->scene, impl_->world, &random, false);
+  Query query = impl_->query(&random, false);
   RTCRayHit r;
   set_ray(r.ray, ray);
-  r.hit.geomID = kInvalid;
-  r.hit.instID[0] = kInvalid;
+  r.hit.geomID = kInvalidId;
+  r.hit.instID[0] = kInvalidId;
   embree_intersect(impl_->top, r, query);
   hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID,
                       [&] { return Vec3f(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z); });
@@ -420,7 +70,7 @@ bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
-  Query query(impl_->scene, impl_->world, &random, false);
+  Query query = impl_->query(&random, false);
   RTCRay r;
   set_ray(r, ray);
   embree_occluded(impl_->top, r, query);
@@ -428,11 +78,11 @@ bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
 }
 
 void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
-  Query query(impl_->scene, impl_->world, rays.random, true);
+  Query query = impl_->query(rays.random, true);
   RTCRayHit16 r;
   const Lanes lanes = set_rays(r.ray, rays);
-  std::ranges::fill(r.hit.geomID, kInvalid);
-  std::ranges::fill(r.hit.instID[0], kInvalid);
+  std::ranges::fill(r.hit.geomID, kInvalidId);
+  std::ranges::fill(r.hit.instID[0], kInvalidId);
   embree_intersect(impl_->top, lanes.valid, r, query);
   for (int i = 0; i < rays.count; ++i)
     hits[i] =
@@ -441,7 +91,7 @@ void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& 
 }
 
 std::uint32_t Accel::occluded(const RayPacket& rays) const {
-  Query query(impl_->scene, impl_->world, rays.random, false);
+  Query query = impl_->query(rays.random, false);
   RTCRay16 r;
   const Lanes lanes = set_rays(r, rays);
   embree_occluded(impl_->top, lanes.valid, r, query);
@@ -453,24 +103,15 @@ std::uint32_t Accel::occluded(const RayPacket& rays) const {
 std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
                              const Body* body) const {
   assert(!impl_->world->media.empty());
-  Crossings crossings{hits, impl_->world, body, random, impl_.get()};
-  Query query(impl_->scene, impl_->world, &random, false);
+  Crossings crossings{hits, impl_->world, body, random};
+  Query query = impl_->query(&random, false);
   query.crossings = &crossings;
   RTCRayHit r;
   set_ray(r.ray, ray);
-  r.hit.geomID = kInvalid;
-  r.hit.instID[0] = kInvalid;
+  r.hit.geomID = kInvalidId;
+  r.hit.instID[0] = kInvalidId;
   embree_visit(impl_->top, r, query, Impl::collect);
   return crossings.count;
 }
-
-std::size_t Accel::bytes() const {
-  std::size_t bytes = std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load()));
-  for (const TracedMesh& mesh : impl_->traced)
-    if (mesh.pairs) bytes += mesh.pairs->bytes();
-  return bytes;
-}
-
-BuildCounts Accel::builds() const { return impl_->builds; }
 
 }  // namespace parian

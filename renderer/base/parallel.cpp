@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace parian {
 namespace {
@@ -45,6 +46,11 @@ int thread_count() { return limit().threads; }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
   run_loop(count, grain, body, tbb::simple_partitioner());
+}
+
+void run_on_threads(int threads, const std::function<void()>& body) {
+  tbb::task_arena arena(threads);
+  arena.execute(body);
 }
 
 struct ParallelLoop::Memory {

@@ -20,6 +20,9 @@ int thread_count();
 /// `grain` at a time. An exception in a body ends the loop and is rethrown here.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 
+/// Calls body() here, its loops (and those of libraries on oneTBB) on at most `threads` >= 1 threads.
+void run_on_threads(int threads, const std::function<void()>& body);
+
 /// How the items of a loop are dealt to threads, as oneTBB's partitioners do it: in halves that are split
 /// again where a thread is idle; in equal shares once and for all; one by one; like the first, but each to
 /// the thread that had it the last time.
