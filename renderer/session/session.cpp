@@ -35,8 +35,7 @@ Session::Session(std::shared_ptr<const Scene> scene, const RenderSettings& setti
   accel_ = std::make_shared<Accel>(*scene_, *world_, settings_.accel);
   build_lights();
   camera_ = world_->cameras.at(settings_.camera);
-  full_ =
-      make_target(settings_.width, settings_.height, settings_.layers);  // last: it needs no peak
+  full_ = make_target(settings_.width, settings_.height, settings_.layers);  // last: it needs no peak
   shown_ = full_.film;
   camera_media_ = find_media(*world_, *accel_, full_.view.to_world.origin);
   for (const Part& part : world_->parts) stats_.triangles += part.primitive->triangles.size();

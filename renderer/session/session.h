@@ -164,7 +164,7 @@ class Session {
   bool render_coarse();
   void render();
   bool plan_pass();
-  void render_pass(const Target& target);
+  bool render_pass(const Target& target);
   void learn_cost();
   void show(std::shared_ptr<Film> film);
   void render_tile(const Target& target, const Tile& area);
@@ -210,8 +210,9 @@ class Session {
   std::atomic<std::uint64_t> frames_{0};
   std::atomic<double> done_{0};  // share of the render, when the pass in progress was planned
   Clock::time_point started_, pass_started_;
-  bool first_pass_ = false;  // of a film that edits wait for
-  std::atomic<std::uint64_t> pass_samples_{0};
+  bool first_pass_ = false;                     // of a film that edits wait for
+  std::atomic<std::uint64_t> pass_samples_{0};  // of the tiles that are done of the pass
+  std::atomic<std::size_t> merged_tiles_{0};
   double sample_seconds_ = 1e-6;  // of one sample of one pixel, all threads together, as it was last
   mutable std::mutex stats_mutex_;
   SessionStats stats_;

@@ -72,21 +72,22 @@ bool Session::render_coarse() {
   const Target coarse =
       make_target(reduced(full_.film->width()), reduced(full_.film->height()), {.variance = false});
   coarse.film->set_plan(std::vector(coarse.film->plan().size(), 1u));
-  render_pass(coarse);
+  const bool complete = render_pass(coarse);
   first_pass_ = false;
-  if (interrupted() || out_of_time()) return !interrupted();
-  show(coarse.film);
-  return true;
+  if (complete) show(coarse.film);
+  return !interrupted();
 }
 
 void Session::render() {
   // A pass that was interrupted is ended first: the next depends on its result.
   for (bool more = full_.film->is_behind_plan() || plan_pass(); more; more = plan_pass()) {
-    render_pass(full_);
+    const bool complete = render_pass(full_);
     first_pass_ = false;
-    if (interrupted() || out_of_time()) return;
-    finished_samples_ = *std::ranges::min_element(full_.film->plan());
-    show(full_.film);
+    if (complete) {
+      finished_samples_ = *std::ranges::min_element(full_.film->plan());
+      show(full_.film);
+    }
+    if (!complete || interrupted() || out_of_time()) return;
     if (settings_.accel.editable) refine();
   }
 }
@@ -123,11 +124,14 @@ bool Session::plan_pass() {
   return true;
 }
 
-void Session::render_pass(const Target& target) {
+/// False if it was interrupted before its end.
+bool Session::render_pass(const Target& target) {
   pass_started_ = Clock::now();
   pass_samples_ = 0;
+  merged_tiles_ = 0;
   tile_loop_.run(target.tiles.size(), [&](std::size_t i) { render_tile(target, target.tiles[i]); });
   learn_cost();
+  return merged_tiles_ == target.tiles.size();
 }
 
 void Session::learn_cost() {
@@ -153,6 +157,7 @@ void Session::render_tile(const Target& target, const Tile& area) {
     }
   film.merge(tile);
   pass_samples_ += counts.camera;
+  ++merged_tiles_;
   const std::lock_guard lock(stats_mutex_);
   stats_.rays += counts;
 }

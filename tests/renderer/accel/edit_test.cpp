@@ -69,7 +69,7 @@ TEST(Accel, UpdateMovesPlacementsAndAreaLights) {
 
 /// A bumpy sphere of so many rings in a mesh of its own.
 int add_ball(Scene& scene, int rings, const Transform& transform) {
-  Primitive ball = make_uv_sphere({0, 0, 0}, 1, rings);
+  Primitive ball = make_uv_sphere({0, 0, 0}, 2, rings);
   return add_mesh(scene, std::move(ball), 0, transform);
 }
 

@@ -33,7 +33,9 @@ TEST(LiveSession, ACoarseFrameComesFirstAndChangesNothing) {
   session.wait();
   const std::uint64_t frames = session.frames();
   EXPECT_EQ(frames, 1 + 5u);  // coarse; 1, 2, 4, 8, 9 samples
-  Session plain = make_session(everything(), small(9));
+  RenderSettings settings = small(9);
+  settings.accel.editable = true;
+  Session plain = make_session(everything(), settings);
   EXPECT_TRUE(same_bits(session.snapshot(), finish(plain)));
 
   Scene edited = everything();
