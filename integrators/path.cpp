@@ -438,6 +438,8 @@ void trace(const TraceContext& context, const IntegratorSettings& settings,
 }  // namespace
 
 void PathIntegrator::prepare(const World& world) {
+  if (world.media == media_) return;  // most edits leave them, and tables take milliseconds
+  media_ = world.media;
   diffuse_media_.clear();
   if (std::ranges::any_of(world.media, &Medium::scatters))
     diffuse_media_ = make_diffuse_media(world, settings_.subsurface);

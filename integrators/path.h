@@ -15,6 +15,7 @@ class PathIntegrator final : public Integrator {
 
  private:
   IntegratorSettings settings_;
+  std::vector<Medium> media_;                 // of the world that was prepared for
   std::vector<DiffuseMedium> diffuse_media_;  // by medium of the world; empty where none scatters
 };
 

@@ -1,69 +1,13 @@
+/// The queries: rays to Embree, and hits back.
 #include "renderer/accel/accel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cassert>
-#include <optional>
-#include <stdexcept>
-#include <vector>
 
-#include "renderer/accel/mesh_uses.h"
-#include "renderer/accel/query.h"
-#include "renderer/accel/solid_geometry.h"
-#include "renderer/accel/triangle_pairs.h"
-#include "renderer/base/parallel.h"
+#include "renderer/accel/accel_impl.h"
 
 namespace parian {
 namespace {
-
-constexpr std::uint32_t kInvalid = RTC_INVALID_GEOMETRY_ID;
-
-/// What Embree reads of a part while its geometry lives, and what takes a hit back to a triangle. The scene
-/// may be replaced by an edited one, so the arrays are held here.
-struct TracedMesh {
-  const Part* part = nullptr;  // of the world as it is now
-  SharedArray<Triangle> triangles;
-  SharedArray<Vec3f> positions;
-  std::optional<TrianglePairs> pairs;  // absent: Embree has the triangles themselves
-
-  TrianglePoint point(std::uint32_t primitive, float u, float v) const {
-    return pairs ? pairs->point(primitive, u, v) : TrianglePoint{primitive, u, v};
-  }
-};
-
-/// Calls keep(i) for each hit that Embree asks about, and turns it away where that is false.
-template <class Keep>
-void filter_hits(const RTCFilterFunctionNArguments* a, const Keep& keep) {
-  for (unsigned i = 0; i < a->N; ++i)
-    if (a->valid[i] == -1 && !keep(i)) a->valid[i] = 0;
-}
-
-/// Turns a hit away with probability 1 - coverage. The choice is a hash of the ray and the triangle, so that
-/// a triangle met twice by one ray decides alike.
-void alpha_filter(const RTCFilterFunctionNArguments* a) {
-  const TracedMesh& mesh = *static_cast<const TracedMesh*>(a->geometryUserPtr);
-  const auto* query = static_cast<const Query*>(a->context);
-  filter_hits(a, [&](unsigned i) {
-    const TrianglePoint p =
-        mesh.point(RTCHitN_primID(a->hit, a->N, i), RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
-    const float coverage = eval_coverage(*query->scene, *mesh.part, p.triangle, p.u, p.v);
-    const std::uint32_t top = RTCHitN_instID(a->hit, a->N, i, 0);
-    const std::uint32_t where = hash32(p.triangle, hash32(RTCHitN_geomID(a->hit, a->N, i), top));
-    return query->meets(RTCRayN_id(a->ray, a->N, i), where, coverage);
-  });
-}
-
-/// Cuts the disk out of its quad.
-void disk_filter(const RTCFilterFunctionNArguments* a) {
-  const auto* lights = static_cast<const std::vector<AreaLight>*>(a->geometryUserPtr);
-  filter_hits(a, [&](unsigned i) {
-    if (!(*lights)[RTCHitN_primID(a->hit, a->N, i)].disk) return true;
-    const float x = RTCHitN_u(a->hit, a->N, i) - 0.5f, y = RTCHitN_v(a->hit, a->N, i) - 0.5f;
-    return x * x + y * y <= 0.25f;
-  });
-}
 
 void set_ray(RTCRay& r, const Ray& ray) {
   r.org_x = ray.o.x;
@@ -111,13 +55,9 @@ Lanes set_rays(RTCRay16& r, const RayPacket& rays) {
   return lanes;
 }
 
-bool memory_monitor(void* user, ssize_t bytes, bool) {
-  static_cast<std::atomic<std::ptrdiff_t>*>(user)->fetch_add(bytes);
-  return true;
-}
-
 }  // namespace
 
+<<<<<<< HEAD
 struct Accel::Impl {
   // A top-level geometry id means: a primitive in world space, an instance of a mesh, all area lights, or
   // (placement kSolid) the solids of solid_geometries[primitive].
@@ -405,12 +345,14 @@ void Accel::update_transforms(const Scene& scene, const World& world) {
   impl_->commit_top();
 }
 
+=======
+>>>>>>> live
 bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
-  Query query(impl_->scene, impl_->world, &random, false);
+  Query query = impl_->query(&random, false);
   RTCRayHit r;
   set_ray(r.ray, ray);
-  r.hit.geomID = kInvalid;
-  r.hit.instID[0] = kInvalid;
+  r.hit.geomID = kInvalidId;
+  r.hit.instID[0] = kInvalidId;
   embree_intersect(impl_->top, r, query);
   hit = impl_->to_hit(r.ray.tfar, r.hit.u, r.hit.v, r.hit.instID[0], r.hit.geomID, r.hit.primID,
                       [&] { return Vec3f(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z); });
@@ -418,7 +360,7 @@ bool Accel::intersect(const Ray& ray, std::uint32_t random, Hit& hit) const {
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
-  Query query(impl_->scene, impl_->world, &random, false);
+  Query query = impl_->query(&random, false);
   RTCRay r;
   set_ray(r, ray);
   embree_occluded(impl_->top, r, query);
@@ -426,11 +368,11 @@ bool Accel::occluded(const Ray& ray, std::uint32_t random) const {
 }
 
 void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
-  Query query(impl_->scene, impl_->world, rays.random, true);
+  Query query = impl_->query(rays.random, true);
   RTCRayHit16 r;
   const Lanes lanes = set_rays(r.ray, rays);
-  std::ranges::fill(r.hit.geomID, kInvalid);
-  std::ranges::fill(r.hit.instID[0], kInvalid);
+  std::ranges::fill(r.hit.geomID, kInvalidId);
+  std::ranges::fill(r.hit.instID[0], kInvalidId);
   embree_intersect(impl_->top, lanes.valid, r, query);
   for (int i = 0; i < rays.count; ++i)
     hits[i] =
@@ -439,7 +381,7 @@ void Accel::intersect(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& 
 }
 
 std::uint32_t Accel::occluded(const RayPacket& rays) const {
-  Query query(impl_->scene, impl_->world, rays.random, false);
+  Query query = impl_->query(rays.random, false);
   RTCRay16 r;
   const Lanes lanes = set_rays(r, rays);
   embree_occluded(impl_->top, lanes.valid, r, query);
@@ -451,24 +393,15 @@ std::uint32_t Accel::occluded(const RayPacket& rays) const {
 std::size_t Accel::crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
                              const Body* body) const {
   assert(!impl_->world->media.empty());
-  Crossings crossings{hits, impl_->world, body, random, impl_.get()};
-  Query query(impl_->scene, impl_->world, &random, false);
+  Crossings crossings{hits, impl_->world, body, random};
+  Query query = impl_->query(&random, false);
   query.crossings = &crossings;
   RTCRayHit r;
   set_ray(r.ray, ray);
-  r.hit.geomID = kInvalid;
-  r.hit.instID[0] = kInvalid;
+  r.hit.geomID = kInvalidId;
+  r.hit.instID[0] = kInvalidId;
   embree_visit(impl_->top, r, query, Impl::collect);
   return crossings.count;
 }
-
-std::size_t Accel::bytes() const {
-  std::size_t bytes = std::size_t(std::max<std::ptrdiff_t>(0, impl_->bytes.load()));
-  for (const TracedMesh& mesh : impl_->traced)
-    if (mesh.pairs) bytes += mesh.pairs->bytes();
-  return bytes;
-}
-
-BuildCounts Accel::builds() const { return impl_->builds; }
 
 }  // namespace parian

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
+#include <vector>
 
 #include "renderer/scene/surface.h"
 
@@ -21,7 +24,8 @@ namespace parian {
 enum class BuildQuality : std::uint8_t { fast, balanced, best };
 
 struct AccelSettings {
-  bool editable = false;  // instance every mesh: moving one then rebuilds only the top level
+  // Instance every mesh, so that an edit builds what it brings and the top level. Alpha may come and go.
+  bool editable = false;
   BuildQuality quality = BuildQuality::balanced;
   bool compact = false;  // half of the memory, for rays that take longer
   // Told the share done, 0 to 1, of the mesh or the scene that is being built, from any thread; may be empty.
@@ -39,11 +43,20 @@ double copied_triangles(const Scene& scene, const World& world);
 /// What an Accel of the world will take, beside the scene: within some percent, found in some milliseconds.
 AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelSettings& settings);
 
-/// What the builds of an Accel's life were: an edit must not cause more than it needs.
+/// What the builds of an Accel's life were, that of those before it included: an edit must not cause more
+/// than it needs.
 struct BuildCounts {
-  int meshes = 0;     // BVHs or world-space copies of a mesh
+  int meshes = 0;     // primitives put into BVHs of meshes, or copied into world space
+  int refined = 0;    // BVHs of a mesh that were built again, better
   int top_level = 0;  // commits of the top-level scene
 };
+
+/// Thrown by a build that was told to end.
+struct BuildCancelled : std::runtime_error {
+  BuildCancelled() : std::runtime_error("the build was cancelled") {}
+};
+
+class MeshBvh;
 
 /// Up to 16 rays that are traced together, each with the number that decides stochastic alpha.
 struct alignas(64) RayPacket {
@@ -74,14 +87,18 @@ struct Body {
 class Accel {
  public:
   /// The scene and world must outlive the Accel. Throws std::runtime_error where Embree fails (out of
-  /// memory).
-  Accel(const Scene& scene, const World& world, const AccelSettings& settings);
+  /// memory). `before`: one of a scene to be edited, with the same settings, whose BVHs of meshes are taken
+  /// over where the arrays are the same, those in no use included while the scene has the mesh; it stays as
+  /// it is, to be traced on. `cancelled`: throws BuildCancelled soon after it is set.
+  Accel(const Scene& scene, const World& world, const AccelSettings& settings, const Accel* before = nullptr,
+        const std::atomic<bool>* cancelled = nullptr);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  /// Follows an edit that left meshes, materials' alpha and the number of placements and area lights as they
-  /// were, and moved placements or area lights. `scene` and `world` replace those given before.
+  /// Follows an edit that left meshes, the number of placements and area lights and, unless editable,
+  /// materials' alpha as they were, and moved placements or area lights. `scene` and `world` replace those
+  /// given before.
   void update_transforms(const Scene& scene, const World& world);
   /// Points to a scene and world that differ from those given before in nothing that the BVH holds.
   void rebind(const Scene& scene, const World& world);
@@ -106,6 +123,16 @@ class Accel {
   /// that have media; others are not built for it.
   std::size_t crossings(const Ray& ray, std::uint32_t random, std::span<Hit> hits,
                         const Body* body = nullptr) const;
+
+  /// Large meshes of a scene to be edited are built quickly first. These are the better BVHs of up to
+  /// `threads` threads' work, to be built beside tracing, and put in their places between; empty where there
+  /// is nothing to do. Pictures do not depend on it but where a ray meets two triangles at once
+  /// (docs/editor.md). Throws as the constructor.
+  using Refined = std::vector<std::shared_ptr<const MeshBvh>>;
+  bool can_refine() const;
+  Refined refine(int threads, const std::atomic<bool>& cancelled) const;
+  /// Not beside tracing. Those of meshes that are there no longer are dropped.
+  void adopt(const Refined& refined);
 
   std::size_t bytes() const;  // what it holds now
   BuildCounts builds() const;

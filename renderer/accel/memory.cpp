@@ -25,6 +25,10 @@ Cost cost_of(bool quads, const AccelSettings& settings) {
   return settings.compact ? Cost{37, 3} : Cost{65, 34};
 }
 
+// Of a scene to be edited, meshes of this many triangles and more are built quickly first, and better once
+// the picture shows them.
+constexpr std::size_t kQuickFrom = 100'000;
+
 constexpr double kPairBytes = sizeof(Quad), kOriginBytes = sizeof(PairOrigin);
 // Above this many triangles the copies of a mesh cost more than its instances.
 constexpr double kMostCopied = 4e6;
@@ -58,6 +62,21 @@ std::vector<Drawn> count_meshes(const Scene& scene, const World& world) {
   return meshes;
 }
 
+/// Whether triangles are better traced in pairs.
+struct Pairing {
+  double triangles = 0, quads = 0;
+
+  void add(std::span<const Part> parts) {
+    for (const Part& part : parts) {
+      triangles += double(part.primitive->triangles.size());
+      quads += estimate_quads(part.primitive->triangles);
+    }
+  }
+  bool pays() const {
+    return triangles >= kLeastTriangles && 2 * (triangles - quads) >= kLeastPaired * triangles;
+  }
+};
+
 bool is_copied(const Drawn& mesh) { return double(mesh.times) * mesh.triangles <= kMostCopied; }
 
 }  // namespace
@@ -69,16 +88,24 @@ MeshUses find_mesh_uses(const Scene& scene, const World& world, const AccelSetti
   for (const Drawn& mesh : meshes)
     uses.instanced.push_back(mesh.times > 1 ? !(copies && is_copied(mesh))
                                             : settings.editable && mesh.times > 0);
-  double triangles = 0, quads = 0;
-  for (const Placement& p : world.placements) {
-    if (meshes[p.mesh].first != &p) continue;
-    for (std::uint32_t i = p.first_part; i < p.first_part + p.part_count; ++i) {
-      triangles += double(world.parts[i].primitive->triangles.size());
-      quads += estimate_quads(world.parts[i].primitive->triangles);
-    }
-  }
-  uses.paired = triangles >= kLeastTriangles && 2 * (triangles - quads) >= kLeastPaired * triangles;
+  if (settings.editable) return uses;
+  Pairing pairing;
+  for (const Placement& p : world.placements)
+    if (meshes[p.mesh].first == &p) pairing.add(std::span(world.parts).subspan(p.first_part, p.part_count));
+  uses.paired = pairing.pays();
   return uses;
+}
+
+BuildQuality first_quality(std::span<const Part> parts, const AccelSettings& settings) {
+  std::size_t triangles = 0;
+  for (const Part& part : parts) triangles += part.primitive->triangles.size();
+  return settings.editable && triangles >= kQuickFrom ? BuildQuality::fast : settings.quality;
+}
+
+bool pays_to_pair(std::span<const Part> parts) {
+  Pairing pairing;
+  pairing.add(parts);
+  return pairing.pays();
 }
 
 double copied_triangles(const Scene& scene, const World& world) {
@@ -90,7 +117,7 @@ double copied_triangles(const Scene& scene, const World& world) {
 
 AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelSettings& settings) {
   const MeshUses uses = find_mesh_uses(scene, world, settings);
-  const Cost cost = cost_of(uses.paired, settings);
+  Cost cost = cost_of(uses.paired, settings);
   std::vector<double> primitives(uses.instanced.size(), -1);  // by mesh; -1: not yet met
   double held = 0, after = 0;                                 // bytes during the builds, and made after them
   double largest = 0, top = 0;  // primitives of the largest mesh that is built alone, of the rest
@@ -99,9 +126,16 @@ AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelS
     const bool instanced = uses.instanced[p.mesh], is_new = primitives[p.mesh] < 0;
     double& count = primitives[p.mesh];
     if (is_new) {
-      count = count_primitives(world, p, uses.paired);
-      if (uses.paired) held += kPairBytes * count;
-      if (uses.paired) after += kOriginBytes * count;
+      const auto parts = std::span(world.parts).subspan(p.first_part, p.part_count);
+      const bool paired = settings.editable ? pays_to_pair(parts) : uses.paired;
+      if (settings.editable) {
+        AccelSettings first = settings;
+        first.quality = first_quality(parts, settings);
+        cost = cost_of(paired, first);
+      }
+      count = count_primitives(world, p, paired);
+      if (paired) held += kPairBytes * count;
+      if (paired) after += kOriginBytes * count;
     }
     instances += instanced;
     if (instanced && !is_new) continue;
@@ -117,6 +151,7 @@ AccelMemory estimate_memory(const Scene& scene, const World& world, const AccelS
       top += count;
   }
   held += kInstanceBytes * double(instances) + kSolidBytes * double(world.solids.size());
+  // With several meshes in a scene to be edited, that of the last: they are alike but for small ones.
   const double building = cost.building * std::max(largest, top);
   return {std::size_t(held + after), std::size_t(held + std::max(after, building))};
 }

@@ -16,7 +16,6 @@ struct Crossings {
   const World* world;
   const Body* body;  // null: with anything
   std::uint32_t random;
-  const void* accel;  // Accel::Impl, which knows what an Embree hit is
   std::size_t count = 0;
 
   /// Where there is no more room each of those met has the same chance to be kept (Vitter 1985, Random
@@ -34,13 +33,14 @@ struct Crossings {
 };
 
 struct Query : EmbreeContext {
+  const void* accel;  // Accel::Impl, which knows what an Embree hit is
   const Scene* scene;
   const World* world;
   const std::uint32_t* random;     // of each ray, by its id
   Crossings* crossings = nullptr;  // where all crossings are wanted
 
-  Query(const Scene* s, const World* w, const std::uint32_t* r, bool coherent)
-      : scene(s), world(w), random(r) {
+  Query(const void* a, const Scene* s, const World* w, const std::uint32_t* r, bool coherent)
+      : accel(a), scene(s), world(w), random(r) {
     init_context(*this, coherent);
   }
 

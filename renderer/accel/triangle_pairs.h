@@ -28,6 +28,24 @@ struct PairOrigin {
   bool turned;                         // the second triangle is wound the other way
 };
 
+/// The triangle and the weights where Embree reports (u, v) of a quad of that origin.
+inline TrianglePoint triangle_point(const PairOrigin& origin, float u, float v) {
+  const bool second = u + v > 1 && origin.step != 0;
+  // Weights of the corner off the shared edge and of the two after it. Embree gives a point (u', v') of the
+  // second half, corners (2, 3, 1), as (1 - u', 1 - v').
+  float off = second ? u + v - 1 : 1 - u - v, next = second ? 1 - u : u, last = second ? 1 - v : v;
+  if (second && origin.turned) std::swap(next, last);
+  const std::uint32_t triangle = origin.first + (second ? origin.step : 0);
+  switch (second ? origin.second_corner : origin.corner) {
+    case 0:
+      return {triangle, next, last};
+    case 1:
+      return {triangle, off, next};
+    default:
+      return {triangle, last, off};
+  }
+}
+
 struct TrianglePairs {
   SharedArray<Quad> quads;
   SharedArray<PairOrigin> origins;  // that find_origins() adds
@@ -36,21 +54,7 @@ struct TrianglePairs {
 
   /// The triangle and the weights where Embree reports (u, v) of a quad.
   TrianglePoint point(std::uint32_t quad, float u, float v) const {
-    const PairOrigin origin = origins[quad];
-    const bool second = u + v > 1 && origin.step != 0;
-    // Weights of the corner off the shared edge and of the two after it. Embree gives a point (u', v') of the
-    // second half, corners (2, 3, 1), as (1 - u', 1 - v').
-    float off = second ? u + v - 1 : 1 - u - v, next = second ? 1 - u : u, last = second ? 1 - v : v;
-    if (second && origin.turned) std::swap(next, last);
-    const std::uint32_t triangle = origin.first + (second ? origin.step : 0);
-    switch (second ? origin.second_corner : origin.corner) {
-      case 0:
-        return {triangle, next, last};
-      case 1:
-        return {triangle, off, next};
-      default:
-        return {triangle, last, off};
-    }
+    return triangle_point(origins[quad], u, v);
   }
 };
 

@@ -119,6 +119,21 @@ Picture Film::resolve() const {
   return picture;
 }
 
+Picture Film::resolve_beauty() const {
+  Picture picture{width_, height_, {"R", "G", "B"}, std::vector<float>(3 * pixels_.size()), {}};
+  constexpr int kRows = 16;
+  for (int y0 = 0; y0 < height_; y0 += kRows) {
+    const std::size_t end = std::size_t(std::min(y0 + kRows, height_)) * width_;
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = std::size_t(y0) * width_; i < end; ++i) {
+      const PixelSums& p = pixels_[i];
+      const double scale = p.samples ? 1.0 / p.samples : 0;
+      for (int k = 0; k < 3; ++k) picture.pixels[3 * i + k] = float(p.color[k] * scale);
+    }
+  }
+  return picture;
+}
+
 std::uint32_t Film::min_samples() const {
   const std::lock_guard lock(mutex_);
   std::uint32_t least = 0xffffffffu;

@@ -89,6 +89,8 @@ class Film {
 
   /// Means so far: R, G, B and the layers. Pixels without a sample are black.
   Picture resolve() const;
+  /// R, G and B alone; those who merge wait for some rows at most.
+  Picture resolve_beauty() const;
   /// Smallest number of samples of any pixel.
   std::uint32_t min_samples() const;
   /// Samples of the mean pixel.

@@ -19,6 +19,11 @@ class EnvironmentLight {
   EnvironmentLight() = default;  // black
   explicit EnvironmentLight(const Scene& scene);
 
+  /// Takes on another scene of the same environment.
+  void rebind(const Scene& scene) {
+    if (scene_) scene_ = &scene;
+  }
+
   bool black() const { return !scene_; }
   /// Radiance arriving from unit direction d, world space.
   Rgb eval(const Vec3f& d) const;

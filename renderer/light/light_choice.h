@@ -50,6 +50,8 @@ class LightChooser {
     return by_place_ ? probability_by_place(to, light) : distribution_.probability(light);
   }
 
+  /// Whether it depends on the receiver.
+  bool is_by_place() const { return by_place_; }
   const LightTree& tree() const { return tree_; }
   std::size_t bytes() const {
     return distribution_.bytes() + tree_.bytes() + infinite_.capacity() * sizeof(InfiniteLight);

@@ -30,6 +30,11 @@ class LightTable {
   /// The scene and world must outlive the table.
   LightTable(const Scene& scene, const World& world, LightChoice choice = LightChoice::tree);
 
+  /// Takes on an edited scene if its lights are as they were; false, and nothing is done, where they are not.
+  /// The scene and world before must still be there. The table is then, to the bit, the one that would be
+  /// made of the edited scene.
+  bool rebind(const Scene& scene, const World& world);
+
   bool empty() const { return count_ == 0; }
   int size() const { return count_; }
   /// Memory of the lights and of the choice among them, but for the environment map's own density.

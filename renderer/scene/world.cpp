@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "renderer/base/parallel.h"
@@ -129,17 +131,61 @@ Box3f vertex_bounds(const Primitive& primitive) {
   return box;
 }
 
+/// Whether the arrays are the very same.
+bool same_arrays(const Primitive& a, const Primitive& b) {
+  return a.positions.data() == b.positions.data() && a.positions.size() == b.positions.size() &&
+         a.triangles.data() == b.triangles.data() && a.triangles.size() == b.triangles.size();
+}
+
+/// What a world knows of its primitives, by their arrays.
+class KnownParts {
+ public:
+  explicit KnownParts(const World* world) {
+    if (!world) return;
+    for (std::size_t i = 0; i < world->parts.size(); ++i)
+      parts_.emplace(world->parts[i].primitive->triangles.data(), &world->parts[i]);
+    for (std::size_t i = 0; i < world->shape_meshes.size(); ++i)
+      shapes_.emplace(key(world->shape_sizes[i]), &world->shape_meshes[i]->primitives[0]);
+  }
+
+  /// One of the same arrays; of the same material, where there is one. Null: there is none.
+  const Part* find(const Primitive& primitive) const {
+    const Part* any = nullptr;
+    const auto [begin, end] = parts_.equal_range(primitive.triangles.data());
+    for (auto known = begin; known != end; ++known) {
+      if (!same_arrays(*known->second->primitive, primitive)) continue;
+      any = known->second;
+      if (any->material_index == primitive.material) break;
+    }
+    return any;
+  }
+  /// The primitive of a box or plane of that kind and size; null: there is none.
+  const Primitive* find(const std::pair<ShapeKind, Vec3f>& shape) const {
+    const auto known = shapes_.find(key(shape));
+    return known == shapes_.end() ? nullptr : known->second;
+  }
+
+ private:
+  using ShapeKey = std::tuple<ShapeKind, float, float, float>;
+  static ShapeKey key(const std::pair<ShapeKind, Vec3f>& shape) {
+    return {shape.first, shape.second.x, shape.second.y, shape.second.z};
+  }
+  std::unordered_multimap<const Triangle*, const Part*> parts_;
+  std::map<ShapeKey, const Primitive*> shapes_;
+};
+
 class WorldBuilder {
  public:
-  WorldBuilder(const Scene& scene, const World* same_meshes) : scene_(scene) {
+  WorldBuilder(const Scene& scene, const World* before) : scene_(scene), before_(before), known_(before) {
     for (const Mesh& mesh : scene.meshes) {
-      first_part_.push_back(std::uint32_t(world_.parts.size()));
+      world_.first_parts.push_back(std::uint32_t(world_.parts.size()));
       for (const Primitive& primitive : mesh.primitives)
         world_.parts.push_back(make_part(scene, &primitive, primitive.material));
     }
     parallel_for(world_.parts.size(), 1, [&](std::size_t i) {
       Part& part = world_.parts[i];
-      part.bounds = same_meshes ? same_meshes->parts[i].bounds : vertex_bounds(*part.primitive);
+      const Part* known = known_.find(*part.primitive);
+      part.bounds = known ? known->bounds : vertex_bounds(*part.primitive);
     });
   }
 
@@ -164,16 +210,38 @@ class WorldBuilder {
 
   /// Of what in each mesh bounds one medium.
   void find_orientations() {
-    for (std::size_t mesh = 0; mesh < first_part_.size(); ++mesh) {
-      const std::size_t end = mesh + 1 < first_part_.size() ? first_part_[mesh + 1] : world_.parts.size();
+    for (std::size_t mesh = 0; mesh < world_.first_parts.size(); ++mesh) {
+      const std::size_t end =
+          mesh + 1 < world_.first_parts.size() ? world_.first_parts[mesh + 1] : world_.parts.size();
       std::map<std::int32_t, std::vector<const Primitive*>> bodies;
-      const auto parts = std::span(world_.parts).subspan(first_part_[mesh], end - first_part_[mesh]);
+      const auto parts =
+          std::span(world_.parts).subspan(world_.first_parts[mesh], end - world_.first_parts[mesh]);
       for (const Part& part : parts)
         if (part.medium != kNone) bodies[part.medium].push_back(part.primitive);
+      if (!bodies.empty() && take_over_orientations(parts)) continue;
       for (const auto& [medium, primitives] : bodies)
         if (is_inside_out(primitives))
           for (Part& part : parts) part.inside_out |= part.medium == medium;
     }
+  }
+
+  /// Of a mesh that is in the world before with the same materials, side by side, and the same of its parts
+  /// bounding media; false where it is not.
+  bool take_over_orientations(std::span<Part> parts) const {
+    const Part* first = known_.find(*parts[0].primitive);
+    if (!first) return false;
+    const auto begin = std::uint32_t(first - before_->parts.data());
+    const auto mesh = std::ranges::lower_bound(before_->first_parts, begin);  // none, or empty ones, or it
+    const auto next = std::ranges::upper_bound(before_->first_parts, begin);
+    const std::size_t end = next == before_->first_parts.end() ? before_->parts.size() : *next;
+    if (mesh == before_->first_parts.end() || *mesh != begin || end - begin != parts.size()) return false;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (!same_arrays(*first[i].primitive, *parts[i].primitive) ||
+          first[i].material_index != parts[i].material_index ||
+          (first[i].medium == kNone) != (parts[i].medium == kNone))
+        return false;
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].inside_out = first[i].inside_out;
+    return true;
   }
 
   void add_node(const Node& node, int index, const Mat4d& to_world) {
@@ -201,12 +269,12 @@ class WorldBuilder {
     const Affine to_world = to_affine(matrix);
     const bool identity = is_identity(to_world);
     const auto parts = std::uint32_t(world_.mesh(scene_, mesh).primitives.size());
-    world_.placements.push_back({to_world, node, mesh, first_part_[mesh], parts, world_.slot_count,
+    world_.placements.push_back({to_world, node, mesh, world_.first_parts[mesh], parts, world_.slot_count,
                                  identity ? 0 : condition_number(matrix),
                                  max_component(abs(to_world.x) + abs(to_world.y) + abs(to_world.z)),
                                  max_component(abs(to_world.origin)), identity});
     for (std::size_t i = 0; i < parts; ++i) {
-      const Box3f& box = world_.parts[first_part_[mesh] + i].bounds;
+      const Box3f& box = world_.parts[world_.first_parts[mesh] + i].bounds;
       if (box.isEmpty()) continue;
       for (int corner = 0; corner < 8; ++corner)
         world_.bounds.extendBy(
@@ -221,10 +289,15 @@ class WorldBuilder {
     const auto [known, is_new] = shape_meshes_.try_emplace({shape, material}, int(world_.mesh_count(scene_)));
     if (is_new) {
       Mesh mesh;
-      mesh.primitives.push_back(make_shape_primitive(scene_.shapes[shape], material));
+      const std::pair size(scene_.shapes[shape].kind, scene_.shapes[shape].size);
+      const Primitive* known_primitive = known_.find(size);
+      mesh.primitives.push_back(known_primitive ? *known_primitive
+                                                : make_shape_primitive(scene_.shapes[shape], material));
+      mesh.primitives[0].material = material;
+      world_.shape_sizes.push_back(size);
       world_.shape_meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
       const Primitive& primitive = world_.shape_meshes.back()->primitives[0];
-      first_part_.push_back(std::uint32_t(world_.parts.size()));
+      world_.first_parts.push_back(std::uint32_t(world_.parts.size()));
       world_.parts.push_back(make_part(scene_, &primitive, material));
       world_.parts.back().bounds = vertex_bounds(primitive);
     }
@@ -254,8 +327,9 @@ class WorldBuilder {
   }
 
   const Scene& scene_;
+  const World* before_;
+  KnownParts known_;
   World world_;
-  std::vector<std::uint32_t> first_part_;
   std::map<std::pair<int, int>, int> shape_meshes_;  // by shape and material
   std::map<int, std::int32_t> media_;                // by material
   std::map<int, std::uint32_t> solid_parts_;         // by material
@@ -296,9 +370,7 @@ void add_framing_camera(Scene& scene, const Box3f& bounds) {
 
 }  // namespace
 
-World make_world(const Scene& scene, const World* same_meshes) {
-  return WorldBuilder(scene, same_meshes).build();
-}
+World make_world(const Scene& scene, const World* before) { return WorldBuilder(scene, before).build(); }
 
 std::vector<CameraPlacement> place_cameras(const Scene& scene) {
   std::vector<CameraPlacement> cameras;

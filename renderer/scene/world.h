@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/medium.h"
@@ -90,10 +91,12 @@ struct CameraPlacement {
 
 struct World {
   std::vector<Part> parts;
+  std::vector<std::uint32_t> first_parts;  // by mesh
   std::vector<Placement> placements;
   std::vector<Part> solid_parts;
   std::vector<PlacedSolid> solids;
   std::vector<std::shared_ptr<const Mesh>> shape_meshes;  // boxes and planes
+  std::vector<std::pair<ShapeKind, Vec3f>> shape_sizes;   // of which kind and size each of them is
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
   std::vector<CameraPlacement> cameras;
@@ -113,9 +116,10 @@ struct World {
   }
 };
 
-/// The scene must be valid (validate()) and outlive the result, which points into it. `same_meshes`: a world
-/// of a scene with the same meshes, whose bounds then need not be found again.
-World make_world(const Scene& scene, const World* same_meshes = nullptr);
+/// The scene must be valid (validate()) and outlive the result, which points into it. `before`: a world of a
+/// scene that is still there; where the arrays of a primitive are the very ones of that scene, what was found
+/// out about them is taken over, and boxes and planes of the same sizes share their arrays.
+World make_world(const Scene& scene, const World* before = nullptr);
 
 /// The cameras alone.
 std::vector<CameraPlacement> place_cameras(const Scene& scene);

@@ -11,6 +11,7 @@ namespace parian {
 struct Frustum {
   float radius_bottom, radius_top;  // at y = -height / 2 and height / 2; >= 0, not both 0
   float height;                     // > 0
+  bool operator==(const Frustum&) const = default;
 };
 
 /// The crossings of the line o + t d, d not zero and of any length; nothing where it misses or touches. The

@@ -10,6 +10,7 @@ namespace parian {
 
 struct Sphere {
   float radius;  // > 0
+  bool operator==(const Sphere&) const = default;
 };
 
 /// The crossings of the line o + t d, d not zero and of any length; nothing where it misses or touches. The

@@ -1,6 +1,10 @@
 // Edits: moved placements and area lights, other materials; what of it is built anew.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
+#include <utility>
+
 #include "tests/renderer/accel/support/built.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -61,6 +65,95 @@ TEST(Accel, UpdateMovesPlacementsAndAreaLights) {
     const Built original(b.scene, editable);
     expect_same_hits(b, original);
   }
+}
+
+/// A bumpy sphere of so many rings in a mesh of its own.
+int add_ball(Scene& scene, int rings, const Transform& transform) {
+  Primitive ball = make_uv_sphere({0, 0, 0}, 2, rings);
+  return add_mesh(scene, std::move(ball), 0, transform);
+}
+
+// Caught: meshes built again; one that is hidden dropped; BVHs of other meshes taken over.
+TEST(Accel, AnEditTakesOverTheBvhsOfMeshes) {
+  Scene scene = editable_scene();
+  Built b(scene, true);
+  const int before = b.accel->builds().meshes;
+  Scene edited = scene;
+  const int ball = add_ball(edited, 12, translate({0, 0, 2}));
+  std::swap(edited.meshes[0], edited.meshes[2]);  // other numbers
+  for (Node& node : edited.nodes)
+    if (node.mesh == 0 || node.mesh == 2) node.mesh = 2 - node.mesh;
+  edited.nodes[1].mesh = kNone;
+  add_shape(edited, make_sphere(0.5f), 0, translate({0, 1, 0}));
+  add_light(edited, area_light(LightKind::disk, 1, 1), translate({1, 1, 1}));
+  const AccelSettings settings{.editable = true};
+  Built after(scene, true);  // its scene and world are replaced
+  after.scene = edited;
+  after.world = make_world(after.scene);
+  after.accel = std::make_unique<Accel>(after.scene, after.world, settings, b.accel.get());
+  EXPECT_EQ(after.accel->builds().meshes, before + 1);
+  const Built fresh(edited, true);
+  expect_same_hits(after, fresh);
+  // The one before is as it was.
+  const Built original(scene, true);
+  expect_same_hits(b, original);
+
+  // Hidden, shown again, and copied with another material and with alpha: nothing is built.
+  Scene hidden = edited;
+  hidden.nodes[std::size_t(ball)].mesh = kNone;
+  const World without = make_world(hidden);
+  const Accel second(hidden, without, settings, after.accel.get());
+  Scene copied = edited;
+  Mesh copy = copied.meshes[std::size_t(edited.nodes[std::size_t(ball)].mesh)];
+  Material pane = make_lambert({1, 1, 1});
+  pane.alpha_mode = AlphaMode::blend;
+  pane.alpha = 0;
+  copy.primitives[0].material = add_material(copied, pane);
+  copied.meshes.push_back(copy);
+  Node node;
+  node.mesh = int(copied.meshes.size()) - 1;
+  node.transform = translate({3, 3, 3});
+  add_root(copied, node);
+  const World with_copy = make_world(copied);
+  const Accel third(copied, with_copy, settings, &second);
+  EXPECT_EQ(third.builds().meshes, before + 1);
+  Hit hit;
+  EXPECT_TRUE(third.intersect({{0, 0, 9}, {0, 0, -1}}, 1, hit));
+  EXPECT_FALSE(third.occluded({{3, 3, 9}, {0, 0, -1}, 12}, 1));  // nothing of it is there
+}
+
+// Caught: a better BVH of another mesh put in; none at all.
+TEST(Accel, LargeMeshesAreRefined) {
+  Scene scene;
+  add_material(scene, make_lambert({1, 1, 1}));
+  add_ball(scene, 12, translate({2, 0, 0}));
+  add_ball(scene, 180, translate({-1, 0, 0}));  // 128,880 triangles
+  Built b(scene, true);
+  const Built unrefined(scene, true);
+  ASSERT_TRUE(b.accel->can_refine());
+  const std::atomic<bool> cancelled{true}, wanted{false};
+  EXPECT_THROW(b.accel->refine(1, cancelled), BuildCancelled);
+  const Accel::Refined refined = b.accel->refine(1, wanted);
+  ASSERT_EQ(refined.size(), 1u);
+  b.accel->adopt(refined);
+  EXPECT_FALSE(b.accel->can_refine());
+  EXPECT_EQ(b.accel->builds().refined, 1);
+  expect_same_hits(b, unrefined);
+  // One that comes too late for its mesh is dropped.
+  Scene other = scene;
+  other.nodes.resize(1), other.roots.resize(1), other.meshes.resize(1);
+  Built small(other, true);
+  small.accel->adopt(refined);
+  EXPECT_EQ(small.accel->builds().refined, 0);
+}
+
+TEST(Accel, ABuildCanBeCancelled) {
+  Scene scene;
+  add_material(scene, make_lambert({1, 1, 1}));
+  add_ball(scene, 100, {});
+  const World world = make_world(scene);
+  const std::atomic<bool> cancelled{true};
+  EXPECT_THROW(Accel(scene, world, AccelSettings{.editable = true}, nullptr, &cancelled), BuildCancelled);
 }
 
 TEST(Accel, RebindFollowsMaterials) {
