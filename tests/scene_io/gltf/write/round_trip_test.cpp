@@ -78,7 +78,8 @@ TEST_F(NightlyRoundTrip, OfLargeModels) {
 TEST_F(RoundTrip, OfAPose) {
   const fs::path folder = fs::path(PARIAN_SOURCE_DIR) / "../shared/assets/khronos";
   if (!fs::is_directory(folder)) GTEST_SKIP() << "no " << folder.string();
-  for (const char* name : {"AnimatedMorphCube.glb", "CesiumMan.glb", "BrainStem.glb", "InterpolationTest.glb"}) {
+  for (const char* name :
+       {"AnimatedMorphCube.glb", "CesiumMan.glb", "BrainStem.glb", "InterpolationTest.glb"}) {
     LoadSettings posed;
     posed.at = 0.6;
     const Loaded loaded = load_with_source((folder / name).string(), posed);
