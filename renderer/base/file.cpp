@@ -28,25 +28,49 @@ std::vector<char> read_file(const std::string& path) {
   return bytes;
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
+FileWriter::FileWriter(const std::string& path) : path_(path), stream_(nullptr, std::fclose) {
   static std::atomic<int> serial{0};
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw InputError(path, "", "cannot be written: it is not a file");
-  const std::string temporary = fmt::format("{}.{}-{}.tmp", path, ::getpid(), serial++);
-  errno = 0;
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(bytes.data(), std::streamsize(bytes.size()));
-  file.close();
-  std::string reason = file ? "" : std::strerror(errno);
-  if (reason.empty()) {
-    fs::rename(temporary, path, error);
-    if (error) reason = error.message();
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) fail("it is not a file");
+  temporary_ = fmt::format("{}.{}-{}.tmp", path, ::getpid(), serial++);
+  stream_.reset(std::fopen(temporary_.c_str(), "wb"));
+  if (!stream_) {
+    const std::string reason = std::strerror(errno);
+    temporary_.clear();
+    fail(reason);
   }
-  if (!reason.empty()) {
-    fs::remove(temporary, error);
-    throw InputError(path, "", fmt::format("cannot be written: {}", reason));
-  }
+}
+
+FileWriter::~FileWriter() {
+  stream_.reset();
+  std::error_code error;
+  if (!temporary_.empty()) fs::remove(temporary_, error);
+}
+
+void FileWriter::fail(const std::string& reason) const {
+  throw InputError(path_, "", fmt::format("cannot be written: {}", reason));
+}
+
+void FileWriter::write(const void* bytes, std::size_t size) {
+  if (size > 0 && std::fwrite(bytes, 1, size, stream_.get()) != size) fail(std::strerror(errno));
+}
+
+void FileWriter::finish() {
+  if (stream_ && std::fclose(stream_.release()) != 0) fail(std::strerror(errno));
+}
+
+void FileWriter::commit() {
+  finish();
+  std::error_code error;
+  fs::rename(temporary_, path_, error);
+  if (error) fail(error.message());
+  temporary_.clear();
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  FileWriter file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 std::string find_own_file(const std::string& installed, const std::string& built) {

@@ -32,8 +32,7 @@ std::size_t image_bytes(const Image& image) {
 }
 
 bool Image::operator==(const Image& other) const {
-  if (name != other.name || width != other.width || height != other.height || channels != other.channels ||
-      type != other.type)
+  if (width != other.width || height != other.height || channels != other.channels || type != other.type)
     return false;
   if (source == other.source) return pixels == other.pixels;
   std::vector<std::byte> a, b;

@@ -28,6 +28,7 @@ struct Texture {
   int image = kNone;
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
   Filter filter = Filter::linear;
+  Origin origin = {};
   bool operator==(const Texture&) const = default;
 };
 
@@ -178,6 +179,7 @@ struct Material {
   }
   /// Whether what it emits depends on place or direction.
   bool emission_varies() const { return emission_texture || clearcoat; }
+  Origin origin = {};
   bool operator==(const Material&) const = default;
 };
 
@@ -213,12 +215,14 @@ struct Primitive {
   SharedArray<Vec4f> colors;  // linear, multiplies base colour and alpha
   SharedArray<Triangle> triangles;
   int material = kNone;
+  Origin origin = {};
   bool operator==(const Primitive&) const = default;
 };
 
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
+  Origin origin = {};
   bool operator==(const Mesh&) const = default;
 };
 
@@ -233,6 +237,7 @@ struct Shape {
   // cone.
   float radius_bottom = 0.25f, radius_top = 0.25f, height = 0.5f;
   Vec3f size{1, 1, 1};  // box: full sides; plane: its sides along x and z, its front towards +y
+  Origin origin = {};
   bool operator==(const Shape&) const = default;
 };
 
@@ -255,6 +260,7 @@ struct Camera {
   float znear = 0.01f,
         zfar = 0;            // kept for other viewers: a ray tracer has no depth buffer and clips nothing
   std::optional<Lens> lens;  // absent: a pinhole
+  Origin origin = {};
   bool operator==(const Camera&) const = default;
 };
 
@@ -269,6 +275,7 @@ struct Light {
   float range = 0;      // punctual: glTF's cut-off distance; 0: none
   float inner_angle = 0, outer_angle = kPi / 4;  // spot: half angles
   float width = 1, height = 1;                   // rectangle: full sides; disk: width is the diameter
+  Origin origin = {};
   bool operator==(const Light&) const = default;
 };
 
@@ -298,8 +305,14 @@ struct Node {
   int mesh = kNone, camera = kNone, light = kNone;
   int shape = kNone, shape_material = kNone;  // PARIAN_shape: both, or neither
   SharedArray<InstanceTransform>
+<<<<<<< HEAD
       instances;  // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
   bool visible = true;
+=======
+      instances;        // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
+  bool visible = true;  // KHR_node_visibility: if not, no mesh, shape or light of it and below is there
+  Origin origin = {};
+>>>>>>> writer
   bool operator==(const Node&) const = default;
 };
 
@@ -310,6 +323,7 @@ struct Environment {
   Rgb radiance{0, 0, 0};
   int image = kNone;
   Quatf rotation{1, 0, 0, 0};  // turns the environment: world direction = rotation (environment direction)
+  Origin origin = {};
   bool operator==(const Environment&) const = default;
 };
 

@@ -108,20 +108,27 @@ PunctualLight make_punctual_light(const Light& light, const Affine& to_world) {
           std::cos(light.outer_angle)};
 }
 
-/// Calls visit(node index, node to world) for every node that is drawn, parents first.
+/// Calls visit(node index, node to world, whether it is visible) for every node below the roots, parents
+/// first.
 template <class Visit>
 void for_each_node(const Scene& scene, const Visit& visit) {
-  std::vector<std::pair<int, Mat4d>> open;
+  struct Open {
+    int index;
+    Mat4d parent;
+    bool visible;
+  };
+  std::vector<Open> open;
   for (auto root = scene.roots.rbegin(); root != scene.roots.rend(); ++root)
-    open.emplace_back(*root, Mat4d());
+    open.push_back({*root, Mat4d(), true});
   while (!open.empty()) {
-    const auto [index, parent] = open.back();
+    const Open next = open.back();
     open.pop_back();
-    const Node& node = scene.nodes[index];
-    const Mat4d to_world = node.transform.to_matrix() * parent;
-    visit(index, to_world);
+    const Node& node = scene.nodes[next.index];
+    const Mat4d to_world = node.transform.to_matrix() * next.parent;
+    const bool visible = next.visible && node.visible;
+    visit(next.index, to_world, visible);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-      open.emplace_back(*child, to_world);
+      open.push_back({*child, to_world, visible});
   }
 }
 
@@ -190,8 +197,9 @@ class WorldBuilder {
   }
 
   World build() && {
-    for_each_node(scene_,
-                  [&](int index, const Mat4d& to_world) { add_node(scene_.nodes[index], index, to_world); });
+    for_each_node(scene_, [&](int index, const Mat4d& to_world, bool visible) {
+      if (visible) add_node(scene_.nodes[index], index, to_world);
+    });
     world_.cameras = place_cameras(scene_);
     for (std::vector<Part>* parts : {&world_.parts, &world_.solid_parts})
       for (Part& part : *parts) part.medium = medium_of(part);
@@ -374,7 +382,7 @@ World make_world(const Scene& scene, const World* before) { return WorldBuilder(
 
 std::vector<CameraPlacement> place_cameras(const Scene& scene) {
   std::vector<CameraPlacement> cameras;
-  for_each_node(scene, [&](int index, const Mat4d& to_world) {
+  for_each_node(scene, [&](int index, const Mat4d& to_world, bool) {
     const int camera = scene.nodes[index].camera;
     if (camera != kNone) cameras.push_back({camera, index, orthonormal(to_affine(to_world))});
   });

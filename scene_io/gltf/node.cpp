@@ -15,9 +15,13 @@ constexpr double kAffineTolerance = 1e-5;
 
 Vec3f to_vec3(const std::vector<double>& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 
-/// A unit quaternion from glTF's x, y, z, w; nothing where that has no direction.
+/// A unit quaternion from glTF's x, y, z, w; nothing where that has no direction. One that validate() takes
+/// for unit stays as it is to the bit, so that it can be written and read again; who uses it divides by its
+/// length anyway.
 std::optional<Quatf> to_rotation(double x, double y, double z, double w) {
-  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  constexpr double kUnitTolerance = 9e-4;  // of a squared length, below that of validate()
+  const double square = x * x + y * y + z * z + w * w, length = std::sqrt(square);
+  if (std::abs(square - 1) <= kUnitTolerance) return Quatf(float(w), float(x), float(y), float(z));
   if (!(length > 0)) return std::nullopt;
   return Quatf(float(w / length), float(x / length), float(y / length), float(z / length));
 }
@@ -97,11 +101,6 @@ void set_pose(const NodePose& pose, Transform& transform) {
   if (pose.scale) transform.scale = *pose.scale;
 }
 
-int punctual_count(const GltfDocument& document) {
-  const auto* extension = find_extension(document.model.extensions, "KHR_lights_punctual");
-  return extension && extension->Has("lights") ? int(extension->Get("lights").ArrayLen()) : 0;
-}
-
 Node read_node(const tinygltf::Node& source, const GltfDocument& document, AccessorReader& accessors,
                const std::string& where) {
   Node node;
@@ -116,6 +115,9 @@ Node read_node(const tinygltf::Node& source, const GltfDocument& document, Acces
   if (const auto* shape = find_extension(source.extensions, "PARIAN_shape")) {
     node.shape = index_or_none(*shape, "shape");
     node.shape_material = index_or_none(*shape, "material");
+  }
+  if (const auto* visibility = find_extension(source.extensions, "KHR_node_visibility")) {
+    node.visible = !visibility->Has("visible") || visibility->Get("visible").Get<bool>();
   }
   const auto* instancing = find_extension(source.extensions, "EXT_mesh_gpu_instancing");
   if (instancing && (node.mesh != kNone || node.shape != kNone)) {
@@ -140,6 +142,11 @@ std::vector<int> find_roots(const GltfDocument& document) {
 }
 
 }  // namespace
+
+int punctual_count(const GltfDocument& document) {
+  const auto* extension = find_extension(document.model.extensions, "KHR_lights_punctual");
+  return extension && extension->Has("lights") ? int(extension->Get("lights").ArrayLen()) : 0;
+}
 
 int default_scene(const GltfDocument& document) {
   if (document.model.scenes.empty()) return kNone;

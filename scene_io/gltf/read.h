@@ -3,6 +3,9 @@
 /// are used). All throw InputError.
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include "renderer/scene/scene.h"
 #include "scene_io/gltf/file/document.h"
 #include "scene_io/gltf/geometry/accessor.h"
@@ -11,9 +14,14 @@
 
 namespace parian {
 
+/// The numbers in the document of what is in the scene, of the kinds that have others there.
+struct UsedTextures {
+  std::vector<int> textures, images;
+};
+
 /// Materials with the textures and images that they and the environment use. Images are decoded in parallel.
-void read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
-                    Warnings& warnings);
+UsedTextures read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
+                            Warnings& warnings);
 
 /// The material of what has none: one for the whole file, after those of the file, appended at its first use.
 int default_material(const GltfDocument& document, Scene& scene);
@@ -56,9 +64,19 @@ void read_shapes(const GltfDocument& document, Scene& scene);
 /// Nodes in the pose, and as roots those of the default scene. Shapes without material get the default one.
 void read_nodes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene);
 
+/// What deform_meshes() has made.
+struct DeformedMeshes {
+  std::map<int, int> source;  // by mesh of the scene: that of the document that it was made of
+  std::map<int, int> shown;   // by node of the document that has a skin: the node that shows its mesh
+};
+
 /// Gives the nodes that are drawn the meshes that morph targets and skins make of theirs, once all else is
 /// there. Meshes that nothing deforms stay as they are, and shared.
-void deform_meshes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene);
+DeformedMeshes deform_meshes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose,
+                             Scene& scene);
+
+/// How many lights of KHR_lights_punctual there are: those of the scene before its area lights.
+int punctual_count(const GltfDocument& document);
 
 /// The index of the scene to draw, or kNone where the document has none.
 int default_scene(const GltfDocument& document);

@@ -86,6 +86,7 @@ Field nodes() {
                       {index("light", "/extensions/KHR_lights_punctual/lights").required()}),
                object("EXT_lights_area", {index("light", "/extensions/EXT_lights_area/lights").required()}),
                object("EXT_mesh_gpu_instancing", {index_map("attributes", "/accessors").required()}),
+               object("KHR_node_visibility", {flag("visible")}),
                object("PARIAN_shape", {index("shape", "/extensions/KHR_implicit_shapes/shapes").required(),
                                        index("material", "/materials")})})});
 }
@@ -150,7 +151,9 @@ std::vector<Field> document_fields() {
                       object("extensions",
                              {object("EXT_lights_environment",
                                      {index("environment", "/extensions/EXT_lights_environment/environments")
-                                          .required()})})}),
+                                          .required()}),
+                              object("PARIAN_environment",
+                                     {numbers("radiance", 3).at_least(0), numbers("rotation", 4)})})}),
       index("scene", "/scenes"),
       list("textures", {index("source", "/images"), index("sampler", "/samplers"),
                         object("extensions", {object("EXT_texture_webp", {index("source", "/images")})})}),

@@ -41,14 +41,26 @@ Quatf to_rotation(const std::string& frontside) {
 void read_environment(const GltfDocument& document, TextureTable& textures, Scene& scene) {
   const int number = default_scene(document);
   if (number == kNone) return;
-  const auto* use =
-      find_extension(document.model.scenes[std::size_t(number)].extensions, "EXT_lights_environment");
-  if (!use) return;
-  const auto& all = document.model.extensions.at("EXT_lights_environment").Get("environments");
-  const tinygltf::Value& source = all.Get(index_or_none(*use, "environment"));
-  scene.environment.radiance = Rgb(float(number_or(source, "intensity", 1)));
-  scene.environment.image = textures.use_image(index_or_none(source, "source"));
-  scene.environment.rotation = to_rotation(text_or(source, "frontside", "+X"));
+  Environment& environment = scene.environment;
+  const auto& extensions = document.model.scenes[std::size_t(number)].extensions;
+  if (const auto* use = find_extension(extensions, "EXT_lights_environment")) {
+    const auto& all = document.model.extensions.at("EXT_lights_environment").Get("environments");
+    const tinygltf::Value& source = all.Get(index_or_none(*use, "environment"));
+    environment.radiance = Rgb(float(number_or(source, "intensity", 1)));
+    environment.image = textures.use_image(index_or_none(source, "source"));
+    environment.rotation = to_rotation(text_or(source, "frontside", "+X"));
+  }
+  if (const auto* own = find_extension(extensions, "PARIAN_environment")) {
+    if (own->Has("radiance")) environment.radiance = to_rgb(numbers_or(*own, "radiance", {}));
+    if (own->Has("rotation")) {
+      const auto r = numbers_or(*own, "rotation", {});
+      if (std::abs(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3] - 1) > 9e-4) {
+        document.fail(fmt::format("/scenes/{}/extensions/PARIAN_environment/rotation", number),
+                      "expected a unit quaternion");
+      }
+      environment.rotation = Quatf(float(r[3]), float(r[0]), float(r[1]), float(r[2]));
+    }
+  }
 }
 
 }  // namespace
@@ -59,13 +71,14 @@ int default_material(const GltfDocument& document, Scene& scene) {
   return int(index);
 }
 
-void read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
-                    Warnings& warnings) {
+UsedTextures read_materials(const GltfDocument& document, const LoadSettings& settings, Scene& scene,
+                            Warnings& warnings) {
   TextureTable textures(document, scene, warnings);
   for (const auto& source : document.model.materials)
     scene.materials.push_back(read_material(source, textures));
   read_environment(document, textures, scene);
   scene.images = read_images(document, textures.images(), scene.environment.image, settings);
+  return {textures.textures(), textures.images()};
 }
 
 }  // namespace parian

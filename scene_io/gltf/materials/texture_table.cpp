@@ -80,6 +80,7 @@ int TextureTable::use_texture(int number) {
     if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) texture.filter = Filter::nearest;
   }
   scene_.textures.push_back(texture);
+  textures_.push_back(number);
   return texture_of_[number] = int(scene_.textures.size()) - 1;
 }
 

@@ -31,6 +31,8 @@ class TextureTable {
 
   /// The images in use, as indices into the document's.
   const std::vector<int>& images() const { return images_; }
+  /// The same of textures.
+  const std::vector<int>& textures() const { return textures_; }
 
  private:
   TextureRef use(int texture, int uv_set, const tinygltf::ExtensionMap& extensions);
@@ -41,7 +43,7 @@ class TextureTable {
   Warnings& warnings_;
   std::map<int, int> texture_of_;
   std::map<std::pair<std::string, int>, int> image_of_;
-  std::vector<int> images_;
+  std::vector<int> images_, textures_;
 };
 
 }  // namespace parian

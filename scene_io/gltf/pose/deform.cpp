@@ -20,20 +20,22 @@ struct Deformation {
   bool is_none() const { return skin == kNone && weights.empty(); }
 };
 
-/// The nodes of the document that the scene's roots reach.
-std::vector<int> drawn_nodes(const Scene& scene, std::size_t document_nodes) {
+/// The nodes of the document that the scene's roots reach, and whether each is visible.
+std::map<int, bool> drawn_nodes(const Scene& scene, std::size_t document_nodes) {
+  std::map<int, bool> drawn;
+  std::vector<std::pair<int, bool>> open;
+  for (const int root : scene.roots) open.emplace_back(root, true);
   std::vector<bool> reached(scene.nodes.size(), false);
-  std::vector<int> open = scene.roots;
   while (!open.empty()) {
-    const auto node = std::size_t(open.back());
+    const auto [index, parent_is_visible] = open.back();
     open.pop_back();
-    if (reached[node]) continue;
-    reached[node] = true;
-    open.insert(open.end(), scene.nodes[node].children.begin(), scene.nodes[node].children.end());
+    const Node& node = scene.nodes[std::size_t(index)];
+    if (reached[std::size_t(index)]) continue;
+    reached[std::size_t(index)] = true;
+    const bool visible = parent_is_visible && node.visible;
+    if (std::size_t(index) < document_nodes) drawn[index] = visible;
+    for (const int child : node.children) open.emplace_back(child, visible);
   }
-  std::vector<int> drawn;
-  for (std::size_t i = 0; i < document_nodes; ++i)
-    if (reached[i]) drawn.push_back(int(i));
   return drawn;
 }
 
@@ -51,15 +53,17 @@ class Deformer {
         scene_(scene),
         skins_(document, accessors, scene.nodes) {}
 
-  void deform() {
+  DeformedMeshes deform() {
     std::map<Deformation, std::vector<int>> users;
     std::map<int, std::size_t> remaining;  // deformations of each mesh
-    for (const int node : drawn_nodes(scene_, document_.model.nodes.size())) {
+    const std::map<int, bool> drawn = drawn_nodes(scene_, document_.model.nodes.size());
+    for (const auto& [node, visible] : drawn) {
       if (scene_.nodes[std::size_t(node)].mesh == kNone) continue;
       const auto [use, is_new] = users.try_emplace(find_deformation(node));
       use->second.push_back(node);
       if (is_new) ++remaining[use->first.mesh];
     }
+    std::map<int, std::pair<int, bool>> shown;  // by node: its mesh, and whether that is in the world
     // None comes before all others of a mesh, and the last may have the place of what nothing draws any more.
     for (const auto& [deformation, nodes] : users) {
       const bool is_last = --remaining[deformation.mesh] == 0 && !kept_.contains(deformation.mesh);
@@ -75,8 +79,12 @@ class Deformer {
         index = int(scene_.meshes.size());
         scene_.meshes.push_back(std::move(mesh));
       }
-      for (const int node : nodes) show(node, index, deformation.skin != kNone);
+      result_.source[index] = deformation.mesh;
+      for (const int node : nodes) shown[node] = {index, deformation.skin != kNone};
     }
+    // In the order of the nodes, whatever their meshes.
+    for (const auto& [node, mesh] : shown) show(node, mesh.first, mesh.second, drawn.at(node));
+    return std::move(result_);
   }
 
  private:
@@ -161,7 +169,7 @@ class Deformer {
   /// A skinned mesh is in world space, whatever the node's own place: it goes to a new root of the node's
   /// name that moves nothing. Taking it back through the node's transform would round it, and could not be
   /// where that is singular.
-  void show(int node, int mesh, bool in_world) {
+  void show(int node, int mesh, bool in_world, bool visible) {
     Node& source = scene_.nodes[std::size_t(node)];
     if (!in_world) {
       source.mesh = mesh;
@@ -171,7 +179,9 @@ class Deformer {
     shown.name = source.name;
     shown.mesh = mesh;
     shown.instances = source.instances;
+    shown.visible = visible;
     source.mesh = kNone;
+    result_.shown[node] = int(scene_.nodes.size());
     scene_.roots.push_back(int(scene_.nodes.size()));
     scene_.nodes.push_back(std::move(shown));
   }
@@ -182,15 +192,18 @@ class Deformer {
   Scene& scene_;
   Skins skins_;
   std::set<int> kept_;  // meshes that some node draws undeformed
+  DeformedMeshes result_;
 };
 
 }  // namespace
 
-void deform_meshes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose, Scene& scene) {
+DeformedMeshes deform_meshes(const GltfDocument& document, AccessorReader& accessors, const Pose& pose,
+                             Scene& scene) {
   const bool has_targets = std::ranges::any_of(document.model.meshes, [](const tinygltf::Mesh& mesh) {
     return std::ranges::any_of(mesh.primitives, [](const auto& p) { return !p.targets.empty(); });
   });
-  if (has_targets || !document.model.skins.empty()) Deformer(document, accessors, pose, scene).deform();
+  if (!has_targets && document.model.skins.empty()) return {};
+  return Deformer(document, accessors, pose, scene).deform();
 }
 
 }  // namespace parian
