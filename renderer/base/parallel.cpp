@@ -50,7 +50,6 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
   run_loop(count, grain, body, tbb::simple_partitioner());
 }
 
-<<<<<<< HEAD
 void parallel_chunks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
   const auto chunk = [&](std::size_t i) {
     body(i * kParallelChunk, std::min(count, (i + 1) * kParallelChunk));
@@ -58,11 +57,11 @@ void parallel_chunks(std::size_t count, const std::function<void(std::size_t, st
   const std::size_t chunks = (count + kParallelChunk - 1) / kParallelChunk;
   if (chunks == 1) return chunk(0);
   parallel_for(chunks, 1, chunk);
-=======
+}
+
 void run_on_threads(int threads, const std::function<void()>& body) {
   tbb::task_arena arena(threads);
   arena.execute(body);
->>>>>>> live
 }
 
 struct ParallelLoop::Memory {

@@ -20,15 +20,13 @@ int thread_count();
 /// `grain` at a time. An exception in a body ends the loop and is rethrown here.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 
-<<<<<<< HEAD
 /// For items too small to be handed out one by one: calls body(begin, end) for ranges that together are
 /// [0, count), each of kParallelChunk items but for the last; on this thread where there is one alone.
 inline constexpr std::size_t kParallelChunk = std::size_t(1) << 16;
 void parallel_chunks(std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body);
-=======
+
 /// Calls body() here, its loops (and those of libraries on oneTBB) on at most `threads` >= 1 threads.
 void run_on_threads(int threads, const std::function<void()>& body);
->>>>>>> live
 
 /// How the items of a loop are dealt to threads, as oneTBB's partitioners do it: in halves that are split
 /// again where a thread is idle; in equal shares once and for all; one by one; like the first, but each to

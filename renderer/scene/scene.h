@@ -305,14 +305,9 @@ struct Node {
   int mesh = kNone, camera = kNone, light = kNone;
   int shape = kNone, shape_material = kNone;  // PARIAN_shape: both, or neither
   SharedArray<InstanceTransform>
-<<<<<<< HEAD
-      instances;  // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
-  bool visible = true;
-=======
       instances;        // EXT_mesh_gpu_instancing: if not empty, mesh and shape are drawn once for each
   bool visible = true;  // KHR_node_visibility: if not, no mesh, shape or light of it and below is there
   Origin origin = {};
->>>>>>> writer
   bool operator==(const Node&) const = default;
 };
 
