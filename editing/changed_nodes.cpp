@@ -68,9 +68,13 @@ struct Placed {
   Mat4d to_world;
 };
 
-/// All nodes that carry something, in the order of the walk: that of the world's arrays.
-std::vector<Placed> walk(const Scene& scene) {
-  std::vector<Placed> placed;
+/// What is drawn, shines and sees, each in the order of the walk: that of the world's arrays.
+struct Walked {
+  std::vector<Placed> geometry, lights, cameras;
+};
+
+Walked walk(const Scene& scene) {
+  Walked walked;
   struct Open {
     int index;
     bool visible;
@@ -83,21 +87,14 @@ std::vector<Placed> walk(const Scene& scene) {
     const auto [index, shown, parent] = open.back();
     open.pop_back();
     const Node& node = scene.nodes[std::size_t(index)];
-    const bool visible = shown && node.visible;
-    const Mat4d to_world = node.transform.to_matrix() * parent;
-    if (has_geometry(node) || node.light != kNone || node.camera != kNone)
-      placed.push_back({index, &node, visible, to_world});
+    const Placed placed{index, &node, shown && node.visible, node.transform.to_matrix() * parent};
+    if (has_geometry(node)) walked.geometry.push_back(placed);
+    if (node.light != kNone) walked.lights.push_back(placed);
+    if (node.camera != kNone) walked.cameras.push_back(placed);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-      open.push_back({*child, visible, to_world});
+      open.push_back({*child, placed.visible, placed.to_world});
   }
-  return placed;
-}
-
-template <class Wanted>
-std::vector<Placed> select(const std::vector<Placed>& all, const Wanted& wanted) {
-  std::vector<Placed> selected;
-  std::ranges::copy_if(all, std::back_inserter(selected), [&](const Placed& p) { return wanted(*p.node); });
-  return selected;
+  return walked;
 }
 
 unsigned find_changed_geometry(const std::vector<Placed>& before, const std::vector<Placed>& after) {
@@ -118,21 +115,18 @@ unsigned find_changed_geometry(const std::vector<Placed>& before, const std::vec
 
 /// Of scenes with other trees: by what the world is made of.
 unsigned find_changed_tree(const Scene& before, const Scene& after) {
-  const std::vector<Placed> old_nodes = walk(before), new_nodes = walk(after);
-  unsigned changed = find_changed_geometry(select(old_nodes, has_geometry), select(new_nodes, has_geometry));
-  const auto is_light = [](const Node& n) { return n.light != kNone; };
+  const Walked old_nodes = walk(before), new_nodes = walk(after);
+  unsigned changed = find_changed_geometry(old_nodes.geometry, new_nodes.geometry);
   const auto same_light = [](const Placed& a, const Placed& b) {
     return a.node->light == b.node->light && a.visible == b.visible && a.to_world == b.to_world &&
            a.index == b.index;
   };
-  if (!std::ranges::equal(select(old_nodes, is_light), select(new_nodes, is_light), same_light))
+  if (!std::ranges::equal(old_nodes.lights, new_nodes.lights, same_light))
     changed |= kChangedLights | kChangedTransforms;
-  const auto is_camera = [](const Node& n) { return n.camera != kNone; };
   const auto same_camera = [](const Placed& a, const Placed& b) {
     return a.node->camera == b.node->camera && a.visible == b.visible && a.to_world == b.to_world;
   };
-  if (!std::ranges::equal(select(old_nodes, is_camera), select(new_nodes, is_camera), same_camera))
-    changed |= kChangedCamera;
+  if (!std::ranges::equal(old_nodes.cameras, new_nodes.cameras, same_camera)) changed |= kChangedCamera;
   return changed;
 }
 

@@ -72,6 +72,7 @@ std::string shown(const Scene& scene, const std::vector<int>& nodes) {
 }
 std::string shown(const Scene& scene) { return shown(scene, scene.roots); }
 
+// Caught: matrices multiplied the wrong way round.
 TEST(Nodes, ReparentingKeepsThePlace) {
   const Scene before = family();
   Scene scene = before;

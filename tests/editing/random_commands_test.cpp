@@ -83,6 +83,7 @@ void follow_edits(unsigned seed, int count, bool editable) {
   }
 }
 
+// Caught: lights untold.
 TEST(RandomCommands, AreFollowedByASession) {
   for (unsigned seed = 1; seed <= 3; ++seed) follow_edits(seed, 150, false);
 }

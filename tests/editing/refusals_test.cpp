@@ -46,6 +46,7 @@ void expect_refusals(const std::vector<Refusal>& refusals) {
 
 const float kNan = std::nanf("");
 
+// Caught: a scale that nobody looks at.
 TEST(Refusals, OfNodes) {
   using namespace edit;
   expect_refusals({

@@ -48,7 +48,7 @@ Scene scene_with_closed_mesh() {
   return scene;
 }
 
-// Caught: contents compared, also of arrays of equal length in other places.
+// Caught: contents compared (it ends in a crash).
 TEST(SceneDelta, ReadsNoVertices) {
   const Scene before = scene_with_closed_mesh();
   Scene scene = before;
