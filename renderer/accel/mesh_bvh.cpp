@@ -91,10 +91,8 @@ void set_vertices(const EmbreeDevice& device, RTCGeometry geometry, const Shared
   auto* out = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size()));
   device.check("allocating vertices");
-  constexpr std::size_t kChunk = 1 << 16;
-  parallel_for((positions.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-    const std::size_t end = std::min(positions.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i)
+  parallel_chunks(positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       out[i] = to_world ? to_world->point(positions[i]) : positions[i];
   });
 }

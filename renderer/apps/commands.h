@@ -39,5 +39,6 @@ Command add_render_command(CLI::App& app);
 Command add_display_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_compare_command(CLI::App& app);
+Command add_edit_command(CLI::App& app);
 
 }  // namespace parian

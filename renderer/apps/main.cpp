@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PARIAN_VERSION);
   app.require_subcommand(1);
   std::vector<std::pair<CLI::App*, Command>> commands;
-  for (auto add : {add_render_command, add_display_command, add_compare_command, add_info_command}) {
+  for (auto add :
+       {add_render_command, add_display_command, add_compare_command, add_info_command, add_edit_command}) {
     Command command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), std::move(command));
   }
@@ -24,7 +25,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
-      fmt::print(stderr, "parian: no command \"{}\"; there are: render, display, compare, info\n", argv[1]);
+      fmt::print(stderr, "parian: no command \"{}\"; there are: render, display, compare, info, edit\n",
+                 argv[1]);
       return kBadUsage;
     }
     fmt::print(stderr, "parian: {}\n", error.what());
