@@ -73,7 +73,6 @@ int add_ball(Scene& scene, int rings, const Transform& transform) {
   return add_mesh(scene, std::move(ball), 0, transform);
 }
 
-// Caught: meshes built again; one that is hidden dropped; BVHs of other meshes taken over.
 TEST(Accel, AnEditTakesOverTheBvhsOfMeshes) {
   Scene scene = editable_scene();
   Built b(scene, true);
@@ -122,7 +121,6 @@ TEST(Accel, AnEditTakesOverTheBvhsOfMeshes) {
   EXPECT_FALSE(third.occluded({{3, 3, 9}, {0, 0, -1}, 12}, 1));  // nothing of it is there
 }
 
-// Caught: a better BVH of another mesh put in; none at all.
 TEST(Accel, LargeMeshesAreRefined) {
   Scene scene;
   add_material(scene, make_lambert({1, 1, 1}));

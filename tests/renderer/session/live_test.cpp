@@ -25,7 +25,6 @@ bool wait_for_frames(const Session& session, std::uint64_t count) {
   return session.frames() >= count;
 }
 
-// Caught: what is coarse left in the full picture; edits lost at the end of a render.
 TEST(LiveSession, ACoarseFrameComesFirstAndChangesNothing) {
   Session session = make_session(everything(), live(9));
   session.start();
@@ -49,7 +48,7 @@ TEST(LiveSession, ACoarseFrameComesFirstAndChangesNothing) {
   EXPECT_TRUE(same_bits(session.snapshot(), finish(fresh)));
 }
 
-// Caught: edits that end each other's first frame; the last of them not shown.
+// Caught: a first frame that was complete, but not shown since an edit waited.
 TEST(LiveSession, AMovingHandSeesFrames) {
   RenderSettings settings = live(40);
   settings.first_frame = 0.05;
@@ -155,7 +154,6 @@ TEST(LiveSession, DepthIsAlongTheAxis) {
   EXPECT_GT(corner->distance, 5.3f);
 }
 
-// Caught: questions that see what an edit has taken away.
 TEST(LiveSession, QuestionsWhileEditsGoOn) {
   RenderSettings settings = live(kNoLimit);
   Session session = make_session(everything(), settings);
