@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <string>
@@ -17,9 +18,9 @@ namespace parian {
 inline nlohmann::json to_json(float value) {
   const double shortest = std::strtod(fmt::format("{}", value).c_str(), nullptr);
   if (float(shortest) != value) return double(value);
-  // Whole numbers are written as such.
-  if (shortest == double(long(shortest)) && std::abs(shortest) < 1e6 && !std::signbit(shortest))
-    return long(shortest);
+  // Whole numbers are written as such, but for the negative zero, which is none.
+  const bool is_whole = std::abs(shortest) < 1e6 && shortest == double(long(shortest));
+  if (is_whole && (shortest != 0 || !std::signbit(shortest))) return long(shortest);
   return shortest;
 }
 inline nlohmann::json to_json(double value) { return value; }

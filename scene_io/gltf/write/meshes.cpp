@@ -120,8 +120,10 @@ void write_mesh(Draft& draft, const Mesh& mesh, MeshForm form, json& target) {
     for (const int drawn : source->primitives[std::size_t(mesh.origin.index)])
       is_left[std::size_t(drawn)] = false;
   const auto pass_on = [&](std::size_t end) {
-    for (std::size_t i = 0; i < end; ++i)
-      if (std::exchange(is_left[i], false)) written.push_back(sources[i]);
+    for (std::size_t i = 0; i < end; ++i) {
+      if (is_left[i]) written.push_back(sources[i]);
+      is_left[i] = false;
+    }
   };
   if (!before) is_left.assign(sources.size(), false);
   for (const Primitive& now : mesh.primitives) {

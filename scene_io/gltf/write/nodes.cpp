@@ -55,6 +55,8 @@ class NodeWriter {
       write_transform(target, now.transform, before.transform, is_posed);
       target.erase("children");
       if (!now.children.empty()) target["children"] = now.children;
+      target.erase("camera");
+      if (now.camera != kNone) target["camera"] = now.camera;
       write_mesh_use(target, i);
       if (is_posed && deformations_.keeps_weights[i]) {
         const std::vector<float>& weights = source->posed.at(now.origin.index);

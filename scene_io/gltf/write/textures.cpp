@@ -1,10 +1,9 @@
 /// write_textures(): textures with their samplers, and images.
 #include <algorithm>
-#include <cstring>
 #include <memory>
-#include <string_view>
 #include <utility>
 
+#include "renderer/base/error.h"
 #include "scene_io/gltf/write/draft.h"
 #include "scene_io/gltf/write/image_type.h"
 #include "scene_io/gltf/write/member.h"

@@ -91,6 +91,34 @@ TEST(World, ShowsOnlyWhatHangsOnARoot) {
   EXPECT_EQ(make_world(scene).placements.size(), 1u);
 }
 
+// What is not visible hides all that is below it, but for cameras.
+TEST(World, HidesWhatIsNotVisible) {
+  Scene scene = make_scene();
+  scene.lights.emplace_back();
+  scene.shapes.emplace_back();
+  scene.cameras.emplace_back();
+  Node node = mesh_node();
+  node.light = node.shape = node.shape_material = node.camera = 0;
+  const int child = add_root(scene, node);
+  scene.roots.clear();
+  Node parent;
+  parent.children = {child};
+  const int root = add_root(scene, parent);
+  const auto expect = [&](std::size_t count) {
+    const World world = make_world(scene);
+    EXPECT_EQ(world.placements.size(), count);
+    EXPECT_EQ(world.solids.size(), count);
+    EXPECT_EQ(world.punctual_lights.size(), count);
+    EXPECT_EQ(world.cameras.size(), 1u);
+  };
+  expect(1);
+  scene.nodes[root].visible = false;
+  expect(0);
+  scene.nodes[root].visible = true;
+  scene.nodes[child].visible = false;
+  expect(0);
+}
+
 // A flat scale leaves nothing to hit; a tiny one still does.
 TEST(World, HidesMeshesOfZeroScale) {
   Scene scene = make_scene();

@@ -55,6 +55,19 @@ TEST_F(GltfNode, RefusesTransformsThatAreNone) {
   }
 }
 
+TEST_F(GltfNode, ReadsVisibility) {
+  const auto visible = [&](const json& extension) {
+    return node({{"extensions", {{"KHR_node_visibility", extension}}}}).visible;
+  };
+  EXPECT_TRUE(node(json::object()).visible);
+  EXPECT_TRUE(visible(json::object()));
+  EXPECT_TRUE(visible({{"visible", true}}));
+  EXPECT_FALSE(visible({{"visible", false}}));
+  builder.root["nodes"] = {{{"extensions", {{"KHR_node_visibility", {{"visible", 0}}}}}}};
+  EXPECT_TRUE(
+      refusal(builder.glb()).starts_with("/nodes/0/extensions/KHR_node_visibility/visible: expected"));
+}
+
 TEST_F(GltfNode, DrawsTheDefaultScene) {
   builder.root["nodes"] = {{{"children", {1}}}, json::object(), json::object(), json::object()};
   EXPECT_EQ(load(builder.glb()).roots, (std::vector<int>{0, 2, 3}));  // without scenes: all

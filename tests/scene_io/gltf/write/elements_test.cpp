@@ -101,6 +101,7 @@ TEST_F(WriteElements, Instances) {
   EXPECT_EQ(round_trip(scene), scene);
 }
 
+// Caught: nodes without their cameras.
 TEST_F(WriteElements, CamerasAndLights) {
   Scene scene;
   scene.cameras.resize(4);
@@ -133,7 +134,15 @@ TEST_F(WriteElements, CamerasAndLights) {
     scene.nodes[std::size_t(i)].camera = i < 4 ? i : kNone;
     scene.roots.push_back(i);
   }
-  EXPECT_EQ(round_trip(scene), scene);
+  const Scene read = round_trip(scene);
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) EXPECT_EQ(read.cameras[i], scene.cameras[i]) << i;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) EXPECT_EQ(read.lights[i], scene.lights[i]) << i;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    EXPECT_EQ(read.nodes[i].light, scene.nodes[i].light) << i;
+    EXPECT_EQ(read.nodes[i].camera, scene.nodes[i].camera) << i;
+    EXPECT_EQ(read.nodes[i].children, scene.nodes[i].children) << i;
+  }
+  EXPECT_EQ(read, scene);
 
   // Changed, and each of another kind.
   Loaded loaded = again({scene, {}}, "first.glb");
