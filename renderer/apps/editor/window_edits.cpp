@@ -9,6 +9,7 @@
 #include "editing/nodes.h"
 #include "editing/tree.h"
 #include "renderer/apps/editor/main_window.h"
+#include "renderer/base/error.h"
 
 namespace parian::editor {
 
