@@ -96,6 +96,7 @@ NumberField::NumberField(const edit::Property& property, Enter enter, QWidget* p
       step_(property.step > 0 ? property.step : 1),
       enter_(std::move(enter)) {
   setAlignment(Qt::AlignRight);
+  setMinimumWidth(44);
 }
 
 QString NumberField::give(double value, bool done) {

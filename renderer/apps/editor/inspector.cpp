@@ -15,7 +15,7 @@ namespace parian::editor {
 
 Inspector::Inspector(Document& document, QWidget* parent) : QScrollArea(parent), document_(document) {
   setWidgetResizable(true);
-  setMinimumWidth(300);
+  setMinimumWidth(400);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   // Later, since it may be a field that is at work, and it must live until it is done.
   const auto later = [this] { QTimer::singleShot(0, this, &Inspector::follow); };

@@ -126,6 +126,9 @@ std::optional<Gizmo> Viewport::gizmo() const {
   const Mat4d world = edit::find_to_world(scene, selection.active(), edit::find_parents(scene));
   const Affine place = to_affine(world);
   Gizmo result{gizmo_mode_, place.origin, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  // Many a file has all meshes in world space, and its nodes where nothing is to be seen.
+  const Box3f box = render_.bounds(selection.active());
+  if (!box.isEmpty() && !box.intersects(place.origin)) result.origin = box.center();
   const auto long_enough = [](const Vec3f& v) { return v.length() > 1e-12f; };
   // A scale along the axes of the world would shear what is turned.
   const bool local = local_axes_ || gizmo_mode_ == GizmoMode::scale;
