@@ -34,7 +34,8 @@ void write_spot(json& target, const Light& now, const Light& before) {
   set_changed(cone, "outerConeAngle", now.outer_angle, before.outer_angle);
 }
 
-/// The reader's width is size times aspect, in double precision: the quotient gives back the float.
+/// The reader's width is size times aspect, in double precision, of the size that is written in decimals: the
+/// quotient of that gives back the float.
 void write_size(json& target, const Light& now, const Light& before) {
   if (now.kind == LightKind::disk) {
     set_changed(target, "size", now.width, before.width);
@@ -45,7 +46,7 @@ void write_size(json& target, const Light& now, const Light& before) {
   if (now.width == now.height)
     target.erase("rect");
   else
-    target["rect"]["aspect"] = double(now.width) / double(now.height);
+    target["rect"]["aspect"] = double(now.width) / target.value("size", 1.0);
 }
 
 }  // namespace

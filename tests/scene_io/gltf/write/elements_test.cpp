@@ -101,7 +101,7 @@ TEST_F(WriteElements, Instances) {
   EXPECT_EQ(round_trip(scene), scene);
 }
 
-// Caught: nodes without their cameras.
+// Caught: nodes without their cameras; an aspect of the size as a float, which is not the one in the file.
 TEST_F(WriteElements, CamerasAndLights) {
   Scene scene;
   scene.cameras.resize(4);
