@@ -230,13 +230,13 @@ bool run(Session& session, const RenderOptions& o, const std::string& key, const
   return interrupted;
 }
 
-void write_pictures(const Session& session, const RenderOptions& o, double render_seconds) {
-  Picture picture = select_layers(session.snapshot(), o.layers);
+void write_pictures(const Film& film, const RenderOptions& o, double render_seconds) {
+  Picture picture = select_layers(film.resolve(), o.layers);
   picture.metadata = {{"parian:version", PARIAN_VERSION},
                       {"parian:scene", fmt::format("{}", fmt::join(o.scenes, " "))},
                       {"parian:integrator", o.integrator},
-                      {"parian:spp", fmt::format("{:.6g}", session.film().mean_samples())},
-                      {"parian:noise", fmt::format("{:.4g}", session.film().noise().bound)},
+                      {"parian:spp", fmt::format("{:.6g}", film.mean_samples())},
+                      {"parian:noise", fmt::format("{:.4g}", film.noise().bound)},
                       {"parian:seed", std::to_string(o.settings.seed)},
                       {"parian:maxDepth", std::to_string(o.integrator_settings.max_depth)},
                       {"parian:renderSeconds", fmt::format("{:.2f}", render_seconds)}};
@@ -262,7 +262,7 @@ int render(RenderOptions o) {
   std::vector<std::string> notes;
   PhaseLine phases(o.quiet);
   const std::unique_ptr<ImageMemory> memory = make_image_memory(o.texture_memory);
-  const std::shared_ptr<const Scene> scene = load(o, phases, memory.get(), notes);
+  std::shared_ptr<const Scene> scene = load(o, phases, memory.get(), notes);
   const std::vector<CameraPlacement> cameras = place_cameras(*scene);
   o.settings.camera = find_camera(*scene, cameras, o.camera);
   if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
@@ -274,9 +274,9 @@ int render(RenderOptions o) {
 
   phases("building");
   o.settings.accel.on_progress = [&](double done) { phases.show_share(done); };
-  Session session(scene, o.settings, std::move(integrator));
+  auto session = std::make_unique<Session>(scene, o.settings, std::move(integrator));
   phases.finish();
-  if (!o.resume.empty()) read_checkpoint(o.resume, key, session.film());
+  if (!o.resume.empty()) read_checkpoint(o.resume, key, session->film());
   seconds.build = lap(clock);
   // Only now: an error above is the first line of all.
   if (!o.quiet)
@@ -285,25 +285,26 @@ int render(RenderOptions o) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   seconds.first_ray = process_seconds();
-  const bool stopped = run(session, o, key, memory.get());
+  const bool stopped = run(*session, o, key, memory.get());
   seconds.render = lap(clock);
 
-  write_pictures(session, o, seconds.render);
+  // The BVH and the scene go before what writes the picture comes.
+  const SessionStats stats = session->stats();
+  const std::shared_ptr<const Film> film = session->share_film();
+  ImageMemoryStatistics images;
+  if (memory) images = memory->statistics();
+  for (const Image& image : scene->images) images.memory_bytes += memory ? 0 : image.pixels.bytes();
+  session.reset();
+  scene.reset();
+  write_pictures(*film, o, seconds.render);
   seconds.write = lap(clock);
-  const SessionStats stats = session.stats();
-  if (!o.stats.empty()) {
-    ImageMemoryStatistics images;
-    if (memory) images = memory->statistics();
-    for (const Image& image : scene->images) images.memory_bytes += memory ? 0 : image.pixels.bytes();
-    write_file(o.stats, stats_json(stats, seconds, session.film(), images));
-  }
+  if (!o.stats.empty()) write_file(o.stats, stats_json(stats, seconds, *film, images));
   if (stats.rays.dropped > 0)
     fmt::print(stderr, "parian: note: {} samples of {} were not finite and count as black\n",
                stats.rays.dropped, stats.rays.camera);
   if (!o.quiet)
     fmt::print(stderr, "{}x{}, {:.4g} spp, noise {}, {} ({:.0f} camera paths per CPU second)\n", size.x,
-               size.y, session.film().mean_samples(), format_noise(session.film().noise()),
-               format_duration(seconds.render),
+               size.y, film->mean_samples(), format_noise(film->noise()), format_duration(seconds.render),
                stats.render_cpu_seconds > 0 ? double(stats.rays.camera) / stats.render_cpu_seconds : 0);
   return stopped ? kInterrupted : kDone;
 }

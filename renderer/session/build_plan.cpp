@@ -50,10 +50,10 @@ LightTableBytes estimate_lights(const World& world, LightChoice choice) {
 
 void estimate(BuildPlan& plan, const Scene& scene, const World& world, std::size_t afterwards) {
   plan.accel_memory = estimate_memory(scene, world, plan.accel);
-  // One after the other: the BVH, the lights, the film and what comes then.
+  // One after the other: the BVH, the lights, the film; and what comes when the first two are gone.
   const std::size_t held = plan.accel_memory.held;
-  const std::size_t more = std::max(
-      {plan.accel_memory.peak, held + plan.lights.peak, held + plan.lights.held + plan.film + afterwards});
+  const std::size_t more = std::max({plan.accel_memory.peak, held + plan.lights.peak,
+                                     held + plan.lights.held + plan.film, plan.film + afterwards});
   plan.peak = std::max(peak_memory(), resident_memory() + more);
 }
 

@@ -36,7 +36,7 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
-  std::size_t memory_afterwards = 0;  // what the process will take beside it all once the picture is there
+  std::size_t memory_afterwards = 0;  // what the process will take beside the picture when all else is gone
   AccelSettings accel;                // but for the quality, which is
   std::optional<BuildQuality> build;  // absent: what pays
   LightChoice light_choice = LightChoice::tree;
@@ -109,9 +109,13 @@ class Session {
   Picture snapshot() const { return shown_film()->resolve(); }
   /// Its R, G and B alone, which takes a fraction of the time.
   Picture beauty() const { return shown_film()->resolve_beauty(); }
+  /// How noisy that is.
+  Noise noise() const { return shown_film()->noise(); }
   /// Not beside resize().
   Film& film() { return *full_.film; }
   const Film& film() const { return *full_.film; }
+  /// The same, for who has it outlive the session.
+  std::shared_ptr<const Film> share_film() const { return full_.film; }
   SessionStats stats() const;
   /// Not beside an edit.
   const World& world() const { return *world_; }

@@ -110,12 +110,15 @@ LiveStatus LiveRender::status() const {
 void LiveRender::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     Request request;
+    bool paused;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, stop, kFrameInterval, [&] { return !request_.empty(); });
-      request = std::exchange(request_, {});
+      wake_.wait_for(lock, stop, kFrameInterval, [&] { return !paused_ && !request_.empty(); });
+      paused = paused_;
+      if (!paused) request = std::exchange(request_, {});  // else it is followed later
     }
     try {
+      if (const auto current = session(); paused && current) current->cancel();
       if (!request.empty()) follow(request);
       publish();
     } catch (const std::exception& error) {
@@ -129,21 +132,15 @@ void LiveRender::follow(const Request& request) {
   std::shared_ptr<const Scene> scene;
   ViewCamera view;
   QSize size;
-  bool paused;
   {
     const std::lock_guard lock(mutex_);
     scene = scene_;
     view = view_;
     size = size_;
-    paused = paused_;
   }
   if (!scene) return;
   std::shared_ptr<Session> current = session();
   if (request.redisplay) shown_ = 0;
-  if (paused) {
-    if (current) current->cancel();
-    return;
-  }
   if (request.is_new || !current) {
     {
       const std::lock_guard lock(mutex_);
@@ -194,8 +191,9 @@ void LiveRender::publish() {
   if (!display.second || display.first != view) display = {view, Display(view, true)};
   emit frame_ready(to_image(display.second->apply(current->beauty(), exposure)));
   shown_ = frames;
+  const double noise = current->noise().bound;
   const std::lock_guard lock(mutex_);
-  status_.noise = current->film().noise().bound;
+  status_.noise = noise;
 }
 
 }  // namespace parian::editor

@@ -1,6 +1,7 @@
 /// Commands by chance, on whatever a scene has.
 #pragma once
 
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ inline Image small_image(std::uint8_t shade) {
 
 class RandomCommands {
  public:
-  explicit RandomCommands(unsigned seed) : random_(seed) {}
+  /// `make_image`: an image for each of six shades; where these are to be saved, from files.
+  explicit RandomCommands(unsigned seed, std::function<Image(std::uint8_t)> make_image = small_image)
+      : random_(seed), make_image_(std::move(make_image)) {}
 
   /// Runs one command; what it asks for may be refused (UsageError). Scenes of more than about 40 nodes
   /// shrink.
@@ -100,7 +103,7 @@ class RandomCommands {
   Scene small_scene() {
     Scene scene;
     Material m = make_lambert({.5f, .4f, .3f});
-    m.base_color_texture = add_texture(scene, small_image(std::uint8_t(below(3))));
+    m.base_color_texture = add_texture(scene, make_image_(std::uint8_t(below(3))));
     parian::add_mesh(scene, make_box(Vec3f(-.1f), Vec3f(.1f)), parian::add_material(scene, m));
     parian::add_light(scene, edit::default_light(LightKind::point));
     return scene;
@@ -180,7 +183,7 @@ class RandomCommands {
     const std::string_view slot = slots[std::size_t(index(slots))];
     switch (below(4)) {
       case 0:
-        return edit::assign_texture(scene, material, slot, small_image(std::uint8_t(below(6))));
+        return edit::assign_texture(scene, material, slot, make_image_(std::uint8_t(below(6))));
       case 1:
         return edit::remove_texture(scene, material, slot);
       case 2:
@@ -191,7 +194,7 @@ class RandomCommands {
   }
 
   void change_environment(Scene& scene) {
-    if (below(2)) return edit::set_environment_image(scene, small_image(std::uint8_t(below(6))));
+    if (below(2)) return edit::set_environment_image(scene, make_image_(std::uint8_t(below(6))));
     edit::remove_environment_image(scene);
   }
 
@@ -239,6 +242,7 @@ class RandomCommands {
   }
 
   std::mt19937 random_;
+  std::function<Image(std::uint8_t)> make_image_;
 };
 
 }  // namespace parian
