@@ -108,15 +108,19 @@ LiveStatus LiveRender::status() const {
 }
 
 void LiveRender::run(const std::stop_token& stop) {
+  std::chrono::steady_clock::time_point next{};
   while (!stop.stop_requested()) {
     Request request;
     bool paused;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, stop, kFrameInterval, [&] { return !paused_ && !request_.empty(); });
+      wake_.wait_until(lock, stop, next, [&] { return !paused_ && !request_.empty(); });
       paused = paused_;
       if (!paused) request = std::exchange(request_, {});  // else it is followed later
     }
+    // From the beginning of one image to that of the next, so that what it takes to make it does not come on
+    // top.
+    next = std::chrono::steady_clock::now() + kFrameInterval;
     try {
       if (const auto current = session(); paused && current) current->cancel();
       if (!request.empty()) follow(request);
