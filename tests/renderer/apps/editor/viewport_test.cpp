@@ -17,7 +17,7 @@ TEST_F(ViewportTest, AClickSelects) {
   EXPECT_EQ(document_.selection(), (Selection{Kind::nodes, {kTall, 1}}));
   click(ceiling, Qt::ControlModifier);
   EXPECT_EQ(document_.selection(), (Selection{Kind::nodes, {kTall}}));
-  click({2, 2});
+  click({2, 80});
   EXPECT_EQ(document_.selection(), Selection()) << "there is nothing beside the box";
   drag(Qt::LeftButton, tall_block(), {20, 0});
   EXPECT_EQ(document_.selection(), Selection()) << "a click that goes far is none";
@@ -124,7 +124,7 @@ TEST_F(ViewportTest, FocusesOnWhatIsClicked) {
   click(at);
   EXPECT_EQ(steps(), 1) << "once";
   viewport_.begin_focus();
-  click({2, 2});
+  click({2, 80});
   EXPECT_EQ(refusals.count(), 1);
   viewport_.begin_focus();
   QTest::keyClick(&viewport_, Qt::Key_Escape);

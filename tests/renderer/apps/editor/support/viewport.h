@@ -26,12 +26,12 @@ class ViewportTest : public EditorTest {
   static constexpr int kTall = 6, kCamera = 8;  // nodes
 
   ViewportTest() : viewport_(document_) {
-    viewport_.resize(240, 160);
+    viewport_.resize(320, 160);
     document_.load({scene_file("cornell-box")});
     viewport_.look_through(kCamera);
     viewport_.show();
     EXPECT_TRUE(QTest::qWaitForWindowActive(&viewport_));
-    EXPECT_TRUE(wait_for([&] { return frames_.count() > 0 && viewport_.render().pick({120, 80}); }));
+    EXPECT_TRUE(wait_for([&] { return frames_.count() > 0 && viewport_.render().pick({160, 80}); }));
   }
   /// A pixel of the tall block.
   QPoint tall_block() {
