@@ -11,6 +11,8 @@ packages=(
   libcli11-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   # tests
   libgtest-dev libbenchmark-dev
+  # the editor, and what its tests press its buttons with
+  qt6-base-dev xvfb xdotool
 )
 
 missing=()

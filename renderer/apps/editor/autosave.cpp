@@ -26,7 +26,7 @@ Autosave::Autosave(Document& document, const QString& folder, int interval_milli
     : QObject(parent),
       document_(document),
       file_(QDir(folder).filePath(QString("%1.glb").arg(getpid()))),
-      written_(document.share()) {
+      written_(document.is_modified() ? nullptr : document.share()) {  // what was recovered is unsaved
   QDir().mkpath(folder);
   connect(&timer_, &QTimer::timeout, this, &Autosave::write);
   timer_.start(interval_milliseconds);

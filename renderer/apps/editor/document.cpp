@@ -13,35 +13,53 @@
 #include "scene_io/gltf/write/write.h"
 
 namespace parian::editor {
+namespace {
+
+bool same_numbers(const Scene& a, const Scene& b) {
+  return a.nodes.size() == b.nodes.size() && a.materials.size() == b.materials.size() &&
+         a.lights.size() == b.lights.size() && a.cameras.size() == b.cameras.size();
+}
+
+}  // namespace
 
 /// One step of the history: the difference that it made.
 class SceneCommand : public QUndoCommand {
  public:
   /// `after`: the scene that the first redo() shows, which QUndoStack calls at once; null: it is shown.
   SceneCommand(Document& document, const QString& name, SceneDelta delta, std::shared_ptr<const Scene> after)
-      : QUndoCommand(name), document_(document), delta_(std::move(delta)), after_(std::move(after)) {}
+      : QUndoCommand(name),
+        document_(document),
+        delta_(std::move(delta)),
+        after_(std::move(after)),
+        selected_before_(document.selection()) {}
 
   void redo() override {
     if (!std::exchange(is_new_, false))
-      turn([this](Scene& scene) { apply(scene, delta_); });
+      turn([this](Scene& scene) { apply(scene, delta_); }, selected_after_, selected_before_);
     else if (after_)
       document_.show(std::exchange(after_, nullptr), changed(delta_));
   }
   void undo() override {
-    turn([this](Scene& scene) { revert(scene, delta_); });
+    turn([this](Scene& scene) { revert(scene, delta_); }, selected_before_, selected_after_);
   }
 
  private:
   template <class Turn>
-  void turn(const Turn& turn_scene) {
-    auto scene = std::make_shared<Scene>(document_.scene());
+  void turn(const Turn& turn_scene, const Selection& selected_there, Selection& selected_here) {
+    document_.drop_drag();  // the difference is one to the scene without it
+    const std::shared_ptr<const Scene> before = document_.share();
+    selected_here = document_.selection();
+    auto scene = std::make_shared<Scene>(*before);
     turn_scene(*scene);
     document_.show(std::move(scene), changed(delta_));
+    // Where elements have other numbers now, the selection is that of when they had these.
+    if (!same_numbers(*before, document_.scene())) document_.select(selected_there);
   }
 
   Document& document_;
   SceneDelta delta_;
   std::shared_ptr<const Scene> after_;
+  Selection selected_before_, selected_after_;
   bool is_new_ = true;
 };
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace parian::editor {
 namespace {
@@ -29,6 +30,13 @@ QString unit_suffix(const edit::Property& property) {
   return property.unit.empty()
              ? ""
              : QString(" [%1]").arg(QString::fromUtf8(property.unit.data(), qsizetype(property.unit.size())));
+}
+
+/// Says why an entry was refused, at its widget. Whether it was taken.
+bool answer(QWidget* widget, const QString& reason) {
+  widget->setToolTip(reason);
+  if (!reason.isEmpty()) QToolTip::showText(widget->mapToGlobal(QPoint(0, widget->height())), reason, widget);
+  return reason.isEmpty();
 }
 
 /// Drags the number that it names.
@@ -55,21 +63,25 @@ TextField::TextField(std::function<QString(const QString&)> enter, QWidget* pare
     : QLineEdit(parent), enter_(std::move(enter)) {
   connect(this, &QLineEdit::editingFinished, this, [this] {
     if (text() == shown_) return;
-    const QString reason = enter_(text());
-    if (reason.isEmpty())
-      show_value(text());
-    else
-      refuse(reason);
+    const QString entered = text(), reason = enter_(entered);
+    if (!reason.isEmpty()) return refuse(reason);
+    setModified(false);
+    show_value(entered);
   });
   connect(this, &QLineEdit::textEdited, this, [this] {
     setStyleSheet("");
-    setToolTip("");
+    setToolTip(hint_);
   });
 }
 
+void TextField::set_hint(const QString& text) {
+  hint_ = text;
+  setToolTip(text);
+}
+
 void TextField::show_value(const QString& text) {
-  if (hasFocus() && isModified()) return;  // the user is writing
   shown_ = text;
+  if (hasFocus() && isModified()) return;  // the user is writing
   setText(text);
   setCursorPosition(0);
 }
@@ -100,11 +112,12 @@ NumberField::NumberField(const edit::Property& property, Enter enter, QWidget* p
 }
 
 QString NumberField::give(double value, bool done) {
-  if (kind_ == edit::PropertyKind::integer) {
-    if (value != std::floor(value) || std::abs(value) > 2e9) return tr("expected a whole number");
-    return enter_(int(value), done);
-  }
-  return enter_(value, done);
+  const bool whole = kind_ == edit::PropertyKind::integer;
+  if (whole && (value != std::floor(value) || std::abs(value) > 2e9)) return tr("expected a whole number");
+  const QString reason = whole ? enter_(int(value), done) : enter_(value, done);
+  // The panel shows it later; what comes before goes on from here.
+  if (reason.isEmpty()) value_ = value;
+  return reason;
 }
 
 void NumberField::show_number(double value) {
@@ -195,7 +208,7 @@ Field make_field(const edit::Property& property, Enter enter, QWidget* parent) {
     case edit::PropertyKind::angle:
     case edit::PropertyKind::integer: {
       auto* field = new NumberField(property, std::move(enter), parent);
-      field->setToolTip(
+      field->set_hint(
           QObject::tr("%1 to %2%3").arg(property.low).arg(property.high).arg(unit_suffix(property)));
       return {field, [field](const edit::PropertyValue& v) {
                 field->show_number(std::holds_alternative<int>(v) ? std::get<int>(v) : std::get<double>(v));
@@ -207,16 +220,21 @@ Field make_field(const edit::Property& property, Enter enter, QWidget* parent) {
     }
     case edit::PropertyKind::toggle: {
       auto* box = new QCheckBox(parent);
-      QObject::connect(box, &QCheckBox::clicked, box, [enter](bool on) { enter(on, true); });
+      QObject::connect(box, &QCheckBox::clicked, box, [=](bool on) {
+        if (!answer(box, enter(on, true))) box->setChecked(!on);
+      });
       return {box, [box](const edit::PropertyValue& v) { box->setChecked(std::get<bool>(v)); }};
     }
     case edit::PropertyKind::choice: {
       auto* box = new QComboBox(parent);
       for (const std::string& choice : property.choices) box->addItem(QString::fromStdString(choice));
-      QObject::connect(box, &QComboBox::textActivated, box,
-                       [enter](const QString& text) { enter(text.toStdString(), true); });
-      return {box, [box](const edit::PropertyValue& v) {
-                box->setCurrentText(QString::fromStdString(std::get<std::string>(v)));
+      const auto shown = std::make_shared<QString>();
+      QObject::connect(box, &QComboBox::textActivated, box, [=](const QString& text) {
+        if (!answer(box, enter(text.toStdString(), true))) box->setCurrentText(*shown);
+      });
+      return {box, [=](const edit::PropertyValue& v) {
+                *shown = QString::fromStdString(std::get<std::string>(v));
+                box->setCurrentText(*shown);
               }};
     }
     case edit::PropertyKind::text:

@@ -23,13 +23,15 @@ class TextField : public QLineEdit {
  public:
   TextField(std::function<QString(const QString&)> enter, QWidget* parent = nullptr);
   void show_value(const QString& text);
+  /// What is said of the field as long as nothing is refused.
+  void set_hint(const QString& text);
 
  protected:
   /// Says why, at the field, until something else is entered; shows the old value again.
   void refuse(const QString& reason);
-  QString shown_;
 
  private:
+  QString shown_, hint_;
   std::function<QString(const QString&)> enter_;
 };
 

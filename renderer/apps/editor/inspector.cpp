@@ -97,7 +97,11 @@ void Inspector::refresh() {
 
 void Inspector::rebuild() {
   refresh_.clear();
-  if (QWidget* old = takeWidget()) old->deleteLater();
+  if (QWidget* old = takeWidget()) {
+    // What was half written there must not be entered into what has that number now.
+    for (QWidget* field : old->findChildren<QWidget*>()) field->blockSignals(true);
+    old->deleteLater();
+  }
   content_ = new QWidget(this);
   auto* layout = new QVBoxLayout(content_);
   layout->setAlignment(Qt::AlignTop);
@@ -175,10 +179,12 @@ void Inspector::add_vector(QFormLayout* form, const QString& label, const edit::
     auto* field = new NumberField(
         like,
         [=, this](const edit::PropertyValue& value, bool done) {
-          Vec3f v = get(document_.scene());
-          v[c] = float(std::get<double>(value));
-          return apply(
-              label, [&](Scene& scene) { set(scene, v); }, done);
+          const auto set_component = [&](Scene& scene) {
+            Vec3f v = get(scene);
+            v[c] = float(std::get<double>(value));
+            set(scene, v);
+          };
+          return apply(label, set_component, done);
         },
         row);
     field->setObjectName(QString("%1.%2").arg(QString::fromStdString(std::string(like.name))).arg("xyz"[c]));

@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <QToolButton>
 
+#include "editing/arguments.h"
 #include "editing/environment.h"
 #include "editing/nodes.h"
 #include "editing/textures.h"
@@ -31,6 +32,7 @@ edit::Property number(std::string_view name, std::string_view unit, double step)
 
 /// A node's transform as translation, rotation and scale, also where it is a matrix.
 Transform parts_of(const Scene& scene, int node) {
+  edit::check_node(scene, node);
   const Transform& t = scene.nodes[std::size_t(node)].transform;
   return t.matrix ? edit::to_transform(t.to_matrix()) : t;
 }

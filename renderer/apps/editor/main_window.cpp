@@ -39,6 +39,13 @@ MainWindow::MainWindow() : viewport_(new Viewport(document_, this)) {
   show_title();
 }
 
+MainWindow::~MainWindow() {
+  document_.history().disconnect(this);
+  document_.disconnect(this);
+  delete takeCentralWidget();
+  qDeleteAll(findChildren<QDockWidget*>());
+}
+
 void MainWindow::make_panels() {
   const auto dock = [this](const QString& title, const char* name, QWidget* panel, Qt::DockWidgetArea area) {
     auto* widget = new QDockWidget(title, this);

@@ -17,6 +17,8 @@ class MainWindow : public QMainWindow {
 
  public:
   MainWindow();
+  /// The panels go before the document that they follow.
+  ~MainWindow() override;
 
   Document& document() { return document_; }
   Viewport& viewport() { return *viewport_; }
@@ -47,6 +49,8 @@ class MainWindow : public QMainWindow {
   bool save_as();
   void import();
   void render();
+  /// Looks through the scene's first camera, or at all of it.
+  void show_all();
   void remember(const QString& path);
   void show_recent();
   void show_title();

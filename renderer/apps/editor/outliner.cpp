@@ -65,8 +65,11 @@ QWidget* Outliner::make_tree() {
   tree_->header()->setSectionResizeMode(NodeModel::kVisible, QHeaderView::ResizeToContents);
   tree_->expandToDepth(1);
   connect(search, &QLineEdit::textChanged, this, [this](const QString& text) {
+    showing_ = true;  // what is not found stays selected
     found_->setFilterFixedString(text);
+    showing_ = false;
     if (!text.isEmpty()) tree_->expandAll();
+    show_selection();
   });
   connect(tree_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &Outliner::select_from_tree);
   connect(found_, &QAbstractItemModel::modelReset, this, [this] {

@@ -159,6 +159,8 @@ void RenderDialog::run(std::shared_ptr<const Scene> scene, const RenderSettings&
       if (!stopping_) rendered.start();
     }
     rendered.wait();
+    if (rendered.frames() == 0)
+      throw std::runtime_error("stopped before there was a picture; nothing is written");
     const Picture picture = rendered.snapshot();
     if (!exr.empty()) write_exr(picture, exr);
     if (!png.empty()) write_display_image(apply_display(picture, display_view_, exposure_), png);

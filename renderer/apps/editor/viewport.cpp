@@ -61,10 +61,13 @@ Viewport::Viewport(Document& document, QWidget* parent) : QWidget(parent), docum
   connect(&render_, &LiveRender::failed, &document_, &Document::refused);
   connect(&document_, &Document::scene_changed, this, [this](unsigned changed) {
     if (changed) render_.update(document_.share(), changed);
+    // Undone or edited otherwise meanwhile: what was taken hold of may be no more.
+    if (action_ == Action::gizmo && !document_.is_dragging()) action_ = Action::none;
     update();
   });
   connect(&document_, &Document::scene_replaced, this, [this] {
     looked_through_ = kNone;
+    action_ = Action::none;
     render_.replace(document_.share());
   });
   connect(&document_, &Document::selection_changed, this, qOverload<>(&QWidget::update));
@@ -250,7 +253,7 @@ void Viewport::set_focus(const QPointF& at) {
     Camera& lens_owner = edited.cameras[std::size_t(camera)];
     if (!lens_owner.lens) lens_owner.lens.emplace();
     const auto properties = edit::camera_properties(lens_owner);
-    edit::find_property(properties, "focus_distance").set(edited, camera, double(distance));
+    edit::find_property(properties, "lens.focus_distance").set(edited, camera, double(distance));
   });
   if (node == looked_through_) look_through(node);
 }

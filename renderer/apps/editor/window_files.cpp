@@ -48,14 +48,18 @@ bool MainWindow::open(const QStringList& paths) {
     return false;
   }
   remember(document_.path());
+  show_all();
+  return true;
+}
+
+void MainWindow::show_all() {
   const Scene& scene = document_.scene();
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     if (scene.nodes[i].camera != kNone) {
       viewport_->look_through(int(i));
-      return true;
+      return;
     }
   viewport_->frame_selection();
-  return true;
 }
 
 void MainWindow::remember(const QString& path) {
@@ -145,7 +149,7 @@ void MainWindow::offer_backup() {
   if (choice == QMessageBox::Yes) {
     try {
       document_.adopt_backup(backup->file, backup->original);
-      viewport_->frame_selection();
+      show_all();
     } catch (const std::exception& error) {
       return complain(QString::fromUtf8(error.what()));  // the copy stays
     }
