@@ -31,13 +31,13 @@ class Picture:
 
 
 def changed_area(before, after):
-    """(left, top, right, bottom) of the largest run of rows of which at least a third differs; None: there is none."""
+    """(left, top, right, bottom) of the largest run of rows of which at least a sixth differs; None: there is none."""
     runs, start = [], None
     for y in range(before.height + 1):
         differs = False
         if y < before.height:
             a, b = before.row(y, 0, before.width), after.row(y, 0, after.width)
-            differs = a != b and sum(p != q for p, q in zip(a[1::4], b[1::4])) > before.width // 3
+            differs = a != b and sum(p != q for p, q in zip(a[1::4], b[1::4])) > before.width // 6
         if differs and start is None:
             start = y
         if not differs and start is not None:

@@ -62,7 +62,9 @@ TEST_F(GizmoTest, TurnsAsThePointerDoes) {
     // To the right, then down: clockwise.
     const Vec3f right = view_.right() - axis * view_.right().dot(axis);
     const Vec3f after = moved(by, gizmo_.origin + right) - gizmo_.origin;
-    if (h == Handle::all) EXPECT_LT(after.dot(view_.up()), 0) << "clockwise";
+    if (h == Handle::all) {
+      EXPECT_LT(after.dot(view_.up()), 0) << "clockwise";
+    }
   }
 }
 

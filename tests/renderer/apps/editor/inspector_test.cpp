@@ -147,10 +147,11 @@ TEST_F(InspectorTest, ADraggedLabelIsOneStep) {
     EXPECT_EQ(steps(), before) << "still in the hand";
     QTest::mouseRelease(label, Qt::LeftButton, {}, from + QPoint(-60, 0));
     EXPECT_EQ(steps(), before + 1);
-    if (dragged->objectName() == "position.x")
+    if (dragged->objectName() == "position.x") {
       EXPECT_NEAR(scene().nodes[6].transform.translation.x, -0.3f, 1e-5f);
-    else
+    } else {
       EXPECT_NEAR(material(0).roughness, 0.7f, 1e-5f);
+    }
     document_.history().undo();
     EXPECT_EQ(scene(), start);
     document_.history().redo();

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QGroupBox>
 #include <QLabel>
+#include <QTimer>
 
 #include "renderer/apps/editor/inspector.h"
 #include "tests/renderer/apps/editor/support/editor_test.h"
@@ -59,7 +60,7 @@ class InspectorTest : public EditorTest {
         return label;
     return nullptr;
   }
-  int steps() const { return document_.history().count(); }
+  int steps() { return document_.history().count(); }
   const Scene& scene() const { return document_.scene(); }
   const Material& material(int i) const { return scene().materials[std::size_t(i)]; }
 

@@ -59,7 +59,7 @@ class ViewportTest : public EditorTest {
   }
   QImage shown() { return viewport_.grab().toImage(); }
   const Node& tall() const { return document_.scene().nodes[kTall]; }
-  int steps() const { return document_.history().count(); }
+  int steps() { return document_.history().count(); }
 
   Document document_;
   Viewport viewport_;
