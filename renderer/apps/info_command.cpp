@@ -20,14 +20,15 @@ struct InfoOptions {
 };
 
 /// What the render of the scene's first camera would take, with default settings; or why it cannot be.
-std::string describe_memory(const Scene& scene, const World& world, const InfoOptions& o) {
+std::string describe_memory(const Scene& scene, const World& world, const InfoOptions& o,
+                            std::size_t at_end) {
   RenderSettings settings;
+  settings.memory_at_end = at_end;
   const Vec2i size = !o.size.empty()         ? parse_size(o.size)
                      : world.cameras.empty() ? default_size({})
                                              : default_size(scene.cameras[world.cameras[0].camera]);
   settings.width = size.x;
   settings.height = size.y;
-  settings.memory_afterwards = image_library_bytes();
   try {
     return plan_build(scene, world, settings).describe();
   } catch (const std::runtime_error& error) {
@@ -38,6 +39,7 @@ std::string describe_memory(const Scene& scene, const World& world, const InfoOp
 int info(const InfoOptions& o) {
   if (!o.memory.empty()) set_memory_limit(parse_bytes("--memory", o.memory));
   memory_limit();
+  const std::size_t at_end = resident_memory() + image_library_bytes();
   std::vector<std::string> notes;
   const std::unique_ptr<ImageMemory> images = make_image_memory(o.texture_memory);
   LoadSettings settings = o.load_settings;
@@ -45,7 +47,7 @@ int info(const InfoOptions& o) {
   const Scene scene = load_scene(o.scenes, settings, notes);
   const World world = make_world(scene);
   fmt::print("{}", describe(scene, world));
-  fmt::print("{:<12} {}\n", "rendering", describe_memory(scene, world, o));
+  fmt::print("{:<12} {}\n", "rendering", describe_memory(scene, world, o, at_end));
   for (const std::string& note : notes) fmt::print("{:<12} {}\n", "note", note);
   return kDone;
 }

@@ -254,6 +254,7 @@ int render(RenderOptions o) {
   if (o.threads > 0) set_thread_count(o.threads);
   if (!o.memory.empty()) set_memory_limit(parse_bytes("--memory", o.memory));
   memory_limit();  // what is there now, before anything is loaded
+  o.settings.memory_at_end = resident_memory() + image_library_bytes();
   o.settings.layers = film_layers(o.layers);
   std::unique_ptr<Integrator> integrator = make_integrator(o.integrator, o.integrator_settings);
 
@@ -268,7 +269,6 @@ int render(RenderOptions o) {
   if (o.size.empty()) size = default_size(scene->cameras[cameras[o.settings.camera].camera]);
   o.settings.width = size.x;
   o.settings.height = size.y;
-  o.settings.memory_afterwards = image_library_bytes();
   const std::string key = o.checkpoint.empty() && o.resume.empty() ? "" : checkpoint_key(o);
   seconds.load = lap(clock);
 

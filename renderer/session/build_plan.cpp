@@ -48,13 +48,13 @@ LightTableBytes estimate_lights(const World& world, LightChoice choice) {
   return light_table_bytes(lights, choice, std::max<std::size_t>(1, slots));
 }
 
-void estimate(BuildPlan& plan, const Scene& scene, const World& world, std::size_t afterwards) {
+void estimate(BuildPlan& plan, const Scene& scene, const World& world, std::size_t at_end) {
   plan.accel_memory = estimate_memory(scene, world, plan.accel);
-  // One after the other: the BVH, the lights, the film; and what comes when the first two are gone.
+  // One after the other: the BVH, the lights, the film; and the picture, when all else is gone.
   const std::size_t held = plan.accel_memory.held;
-  const std::size_t more = std::max({plan.accel_memory.peak, held + plan.lights.peak,
-                                     held + plan.lights.held + plan.film, plan.film + afterwards});
-  plan.peak = std::max(peak_memory(), resident_memory() + more);
+  const std::size_t more =
+      std::max({plan.accel_memory.peak, held + plan.lights.peak, held + plan.lights.held + plan.film});
+  plan.peak = std::max({peak_memory(), resident_memory() + more, at_end + plan.film});
 }
 
 }  // namespace
@@ -75,15 +75,15 @@ BuildPlan plan_build(const Scene& scene, const World& world, const RenderSetting
   plan.film = Film::bytes(settings.width, settings.height, settings.layers);
   plan.accel.quality =
       settings.build ? *settings.build : worthwhile_quality(scene, world, expected_rays(settings));
-  estimate(plan, scene, world, settings.memory_afterwards);
+  estimate(plan, scene, world, settings.memory_at_end);
   const auto fits = [&] { return plan.peak <= memory_limit(); };
   if (!fits() && !settings.build && plan.accel.quality != BuildQuality::balanced) {
     plan.accel.quality = BuildQuality::balanced;
-    estimate(plan, scene, world, settings.memory_afterwards);
+    estimate(plan, scene, world, settings.memory_at_end);
   }
   if (!fits()) {
     plan.accel.compact = true;
-    estimate(plan, scene, world, settings.memory_afterwards);
+    estimate(plan, scene, world, settings.memory_at_end);
   }
   if (!fits())
     throw std::runtime_error(fmt::format("not enough memory: the render takes {}; the limit is {}",

@@ -36,8 +36,9 @@ struct RenderSettings {
   SamplerKind sampler = SamplerKind::sobol;
   FilterKind filter = FilterKind::blackman_harris;
   FilmLayers layers;
-  std::size_t memory_afterwards = 0;  // what the process will take beside the picture when all else is gone
-  AccelSettings accel;                // but for the quality, which is
+  std::size_t memory_at_end =
+      0;                // what the process takes beside the picture when it is written, all else gone
+  AccelSettings accel;  // but for the quality, which is
   std::optional<BuildQuality> build;  // absent: what pays
   LightChoice light_choice = LightChoice::tree;
   Tiling tiling;

@@ -54,6 +54,24 @@ bool same(const T* a, const T* b) {
   return a && b ? *a == *b : !a && !b;
 }
 
+/// Without what only the other projection has, which no file holds.
+Camera as_saved(Camera camera) {
+  if (camera.projection == Projection::perspective)
+    camera.xmag = camera.ymag = 1;
+  else
+    camera.yfov = camera.aspect = 0;
+  return camera;
+}
+
+/// Without what only other kinds have.
+Light as_saved(Light light) {
+  if (light.kind != LightKind::spot) light.inner_angle = light.outer_angle = 0;
+  if (light.kind != LightKind::rectangle) light.height = 1;
+  if (light.kind != LightKind::rectangle && light.kind != LightKind::disk) light.width = 1;
+  if (light.kind != LightKind::point && light.kind != LightKind::spot) light.range = 0;
+  return light;
+}
+
 void expect_same_node(const Scene& a, const Scene& b, std::size_t i) {
   Node x = a.nodes[i], y = b.nodes[i];
   EXPECT_TRUE(
@@ -76,7 +94,9 @@ void expect_same_scene(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.materials.size(), b.materials.size());
   for (std::size_t i = 0; i < a.materials.size(); ++i)
     expect_same_material(a, a.materials[i], b, b.materials[i], fmt::format("material {}", i));
-  EXPECT_TRUE(a.cameras == b.cameras);
+  ASSERT_EQ(a.cameras.size(), b.cameras.size());
+  for (std::size_t i = 0; i < a.cameras.size(); ++i)
+    EXPECT_TRUE(as_saved(a.cameras[i]) == as_saved(b.cameras[i])) << "camera " << i;
   EXPECT_EQ(a.environment.radiance, b.environment.radiance);
   EXPECT_EQ(a.environment.rotation, b.environment.rotation);
   const Image *p = find(a.images, a.environment.image), *q = find(b.images, b.environment.image);
