@@ -54,7 +54,7 @@ class InspectorTest : public EditorTest {
   static QLabel* label_of(QWidget* field) {
     QLabel* found = nullptr;
     const QRect at = field->geometry();
-    for (auto* label : field->parentWidget()->findChildren<QLabel*>({}, Qt::FindDirectChildrenOnly))
+    for (auto* label : field->parentWidget()->findChildren<QLabel*>(QString(), Qt::FindDirectChildrenOnly))
       if (std::abs(label->geometry().center().y() - at.center().y()) < 10 && label->x() < at.left() &&
           (!found || label->x() > found->x()))
         found = label;
