@@ -129,7 +129,7 @@ class EditorWindow(unittest.TestCase):
         program = self.start()
         self.find_viewport()
         x, y = (self.left + self.right) // 2, (self.top + self.bottom) // 2
-        hand = threading.Thread(target=self.screen.drag, args=(x, y, x + 60, y + 20, 2, 120))
+        hand = threading.Thread(target=self.screen.drag, args=(x, y, x + 240, y + 60, 2, 120))
         pictures, last = 0, None
         end = begin = time.monotonic()
         hand.start()

@@ -27,7 +27,8 @@ class InspectorRowsTest : public InspectorTest {
   /// Turns on all parts that an element can have.
   template <class Properties>
   void turn_all_on(const Properties& properties_of, int index) {
-    for (bool more = true; more;) {
+    bool more = true;
+    for (int i = 0; more && i < 100; ++i) {
       more = false;
       for (const edit::Property& p : properties_of())
         if (p.kind == edit::PropertyKind::toggle && !std::get<bool>(p.get(scene(), index)))

