@@ -74,9 +74,9 @@ Light as_saved(Light light) {
 
 void expect_same_node(const Scene& a, const Scene& b, std::size_t i) {
   Node x = a.nodes[i], y = b.nodes[i];
-  EXPECT_TRUE(
-      same(find(a.lights, std::exchange(x.light, kNone)), find(b.lights, std::exchange(y.light, kNone))))
-      << "light of node " << i;
+  const Light *p = find(a.lights, std::exchange(x.light, kNone)),
+              *q = find(b.lights, std::exchange(y.light, kNone));
+  EXPECT_TRUE(p && q ? as_saved(*p) == as_saved(*q) : !p && !q) << "light of node " << i;
   EXPECT_TRUE(
       same(find(a.meshes, std::exchange(x.mesh, kNone)), find(b.meshes, std::exchange(y.mesh, kNone))))
       << "mesh of node " << i;

@@ -6,6 +6,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 
+#include <chrono>
 #include <exception>
 
 #include "images/image_io.h"
@@ -139,11 +140,7 @@ void RenderDialog::start() {
   timer_.start(100);
 }
 
-void RenderDialog::stop() {
-  stopping_ = true;
-  const std::lock_guard lock(mutex_);
-  if (session_) session_->cancel();
-}
+void RenderDialog::stop() { stopping_ = true; }
 
 // On the thread of the render. What was rendered when it was stopped is written, too.
 void RenderDialog::run(std::shared_ptr<const Scene> scene, const RenderSettings& settings,
@@ -158,6 +155,10 @@ void RenderDialog::run(std::shared_ptr<const Scene> scene, const RenderSettings&
       session_ = std::move(session);
       if (!stopping_) rendered.start();
     }
+    // This thread alone starts, ends and awaits it.
+    while (!stopping_ && rendered.progress().running)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (stopping_) rendered.cancel();
     rendered.wait();
     if (rendered.frames() == 0)
       throw std::runtime_error("stopped before there was a picture; nothing is written");

@@ -42,8 +42,13 @@ void drop_unused(Draft& draft, const std::map<std::string, std::vector<bool>>& r
     const std::vector<bool>& before = referenced_before.at(array);
     for (std::size_t i = 0; i < before.size() && i < keep.size(); ++i) keep[i] = keep[i] || !before[i];
     if (array == array::kBufferViews) {
-      const auto old = std::count(keep.begin(), keep.begin() + long(draft.data.first_view), true);
-      draft.data.first_view = std::size_t(old);
+      // The pieces of new bytes go with their views: a picture that was added and is not used after all.
+      NewData& data = draft.data;
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < data.pieces.size(); ++i)
+        if (keep[data.first_view + i]) std::swap(data.pieces[left++], data.pieces[i]);
+      data.pieces.resize(left);
+      data.first_view = std::size_t(std::count(keep.begin(), keep.begin() + long(data.first_view), true));
     }
     keep_only(draft.root, array, keep);
   }
