@@ -97,10 +97,10 @@ void Inspector::refresh() {
 
 void Inspector::rebuild() {
   refresh_.clear();
-  if (QWidget* old = takeWidget()) {
+  if (QWidget* old = widget()) {
     // What was half written there must not be entered into what has that number now.
     for (QWidget* field : old->findChildren<QWidget*>()) field->blockSignals(true);
-    old->deleteLater();
+    takeWidget()->deleteLater();
   }
   content_ = new QWidget(this);
   auto* layout = new QVBoxLayout(content_);

@@ -18,7 +18,10 @@ void MainWindow::make_edit_menu() {
   QAction* undo = document_.history().createUndoAction(this, tr("Undo"));
   undo->setShortcut(QKeySequence::Undo);
   QAction* redo = document_.history().createRedoAction(this, tr("Redo"));
-  redo->setShortcuts({QKeySequence::Redo, Qt::CTRL | Qt::Key_Y});
+  // Some platforms have the second already; twice it would be ambiguous.
+  QList<QKeySequence> keys = QKeySequence::keyBindings(QKeySequence::Redo);
+  if (const QKeySequence common(Qt::CTRL | Qt::Key_Y); !keys.contains(common)) keys << common;
+  redo->setShortcuts(keys);
   menu->addActions({undo, redo});
   menu->addSeparator();
   add_action(menu, tr("Duplicate"), Qt::CTRL | Qt::Key_D, [this] { duplicate_selected(); });

@@ -57,6 +57,8 @@ TEST_F(WindowTest, SaysWhatDoesNotLoad) {
     window_.statusBar()->clearMessage();
     QMimeData dropped;
     dropped.setUrls({QUrl::fromLocalFile(path(name))});
+    QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &dropped, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(&window_, &enter);
     QDropEvent event(QPointF(5, 5), Qt::CopyAction, &dropped, Qt::LeftButton, {});
     QCoreApplication::sendEvent(&window_, &event);
     EXPECT_TRUE(message().contains(name)) << message().toStdString();
