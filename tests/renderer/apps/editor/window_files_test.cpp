@@ -176,19 +176,20 @@ TEST_F(WindowTest, ExposureAndViewChangeThePicture) {
     const QImage shown = window_.viewport().grab().toImage();
     return mean_of(shown, shown.rect());
   };
-  ASSERT_TRUE(wait_for([&] { return window_.viewport().render().status().samples > 0; }));
+  // With few samples what is bright is cut off, and the picture darker than it will be.
+  ASSERT_TRUE(wait_for([&] { return window_.viewport().render().status().samples >= 32; }));
   ASSERT_TRUE(wait_for([&] { return brightness() > 20; }));
   const double before = brightness();
   auto* exposure = window_.findChild<QDoubleSpinBox*>();
   exposure->setValue(-3);
   EXPECT_TRUE(wait_for([&] { return brightness() < 0.6 * before; }));
   exposure->setValue(0);
-  EXPECT_TRUE(wait_for([&] { return std::abs(brightness() - before) < 0.05 * before; }));
+  EXPECT_TRUE(wait_for([&] { return std::abs(brightness() - before) < 0.1 * before; }));
   auto* views = window_.findChild<QComboBox*>("views");
   ASSERT_GT(views->count(), 1);
   views->setFocus();
   QTest::keyClick(views, Qt::Key_Down);
-  EXPECT_TRUE(wait_for([&] { return std::abs(brightness() - before) > 0.02 * before; }));
+  EXPECT_TRUE(wait_for([&] { return std::abs(brightness() - before) > 0.15 * before; }));
 }
 
 }  // namespace
