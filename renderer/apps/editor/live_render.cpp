@@ -117,6 +117,7 @@ void LiveRender::run(const std::stop_token& stop) {
       wake_.wait_until(lock, stop, next, [&] { return !paused_ && !request_.empty(); });
       paused = paused_;
       if (!paused) request = std::exchange(request_, {});  // else it is followed later
+      if (paused && std::exchange(request_.redisplay, false)) shown_ = 0;
     }
     // From the beginning of one image to that of the next, so that what it takes to make it does not come on
     // top.
