@@ -130,6 +130,7 @@ class Saved : public testing::Test {
   fs::path folder_;
 };
 
+// Caught: new bytes that stayed in the buffer where nothing used their view any more.
 TEST_F(Saved, EveryHundredCommands) {
   for (const char* name : {"textured", "shapes-still-life"}) {
     SCOPED_TRACE(name);
