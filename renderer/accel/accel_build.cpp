@@ -76,40 +76,39 @@ Accel::Impl::Impl(const Scene& s, const World& w, const AccelSettings& settings,
 
 void Accel::Impl::build_meshes(const Impl* before) {
   meshes.assign(uses.instanced.size(), nullptr);
-  if (before) take_over(*before);
+  KnownMeshes known;
+  if (before) take_over(*before, known);
   for (const Placement& p : world->placements)
-    if (!meshes[p.mesh] && uses.instanced[p.mesh]) build_mesh(p);
+    if (!meshes[p.mesh] && uses.instanced[p.mesh]) build_mesh(p, known);
+}
+
+std::shared_ptr<const MeshBvh> Accel::Impl::find(const KnownMeshes& known, std::span<const Part> parts) {
+  const auto [first, last] = known.equal_range(parts[0].primitive->triangles.data());
+  const auto found = std::find_if(first, last, [&](const auto& entry) { return entry.second->holds(parts); });
+  return found == last ? nullptr : found->second;
 }
 
 /// Also of meshes that are not drawn now, so that what is hidden comes back at once.
-void Accel::Impl::take_over(const Impl& before) {
-  std::unordered_map<const void*, std::shared_ptr<const MeshBvh>> known;  // by the first array of triangles
-  const auto key = [](const SharedArray<Triangle>& triangles) { return triangles.data(); };
+void Accel::Impl::take_over(const Impl& before, KnownMeshes& known) {
   for (const auto& mesh : before.meshes)
-    if (mesh && !mesh->parts().empty()) known.emplace(key(mesh->parts()[0]->triangles), mesh);
+    if (mesh && !mesh->parts().empty()) known.emplace(mesh->parts()[0]->triangles.data(), mesh);
   std::uint32_t first = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const auto count = std::uint32_t(world->mesh(*scene, int(i)).primitives.size());
     const std::span<const Part> parts = std::span(world->parts).subspan(first, count);
     first += count;
     if (parts.empty()) continue;
-    // Mostly meshes keep their numbers.
-    if (i < before.meshes.size() && before.meshes[i] && before.meshes[i]->holds(parts)) {
-      meshes[i] = before.meshes[i];
-      continue;
-    }
-    const auto found = known.find(key(parts[0].primitive->triangles));
-    if (found != known.end() && found->second->holds(parts)) meshes[i] = found->second;
+    meshes[i] = find(known, parts);
   }
 }
 
-void Accel::Impl::build_mesh(const Placement& p) {
+void Accel::Impl::build_mesh(const Placement& p, KnownMeshes& known) {
   const std::span<const Part> parts = parts_of(p);
   build.poll();
-  // Another mesh may be of the same arrays.
-  for (const auto& mesh : fresh)
-    if (build.settings.editable && mesh->holds(parts)) {
-      meshes[p.mesh] = mesh;
+  // Another mesh may be of the same arrays, and have the same filters.
+  if (build.settings.editable && !parts.empty())
+    if (auto same = find(known, parts)) {
+      meshes[p.mesh] = std::move(same);
       return;
     }
   SceneBuild this_build = build;
@@ -117,6 +116,7 @@ void Accel::Impl::build_mesh(const Placement& p) {
   const bool paired = build.settings.editable ? pays_to_pair(parts) : uses.paired;
   fresh.push_back(std::make_shared<MeshBvh>(device, this_build, parts, paired));
   meshes[p.mesh] = fresh.back();
+  if (!parts.empty()) known.emplace(parts[0].primitive->triangles.data(), fresh.back());
   builds.meshes += int(parts.size());
 }
 

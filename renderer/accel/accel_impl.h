@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "renderer/accel/mesh_bvh.h"
@@ -68,9 +69,12 @@ struct Accel::Impl {
   std::span<const Part> parts_of(const Placement& p) const {
     return std::span(world->parts).subspan(p.first_part, p.part_count);
   }
+  /// By the first array of triangles, which meshes of other vertices may share.
+  using KnownMeshes = std::unordered_multimap<const void*, std::shared_ptr<const MeshBvh>>;
+  static std::shared_ptr<const MeshBvh> find(const KnownMeshes& known, std::span<const Part> parts);
   void build_meshes(const Impl* before);
-  void build_mesh(const Placement& p);
-  void take_over(const Impl& before);
+  void build_mesh(const Placement& p, KnownMeshes& known);
+  void take_over(const Impl& before, KnownMeshes& known);
   void find_origins();
   RTCGeometry new_copy(std::uint32_t part, const Affine* to_world);
   void attach(RTCGeometry geometry, std::uint32_t placement, std::uint32_t primitive);
