@@ -20,7 +20,7 @@ mapfile -t files < <(
   if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
     git ls-files '*.cpp' '*.h'
   else
-    find renderer images scene_io editing materials integrators tests -name '*.cpp' -o -name '*.h'
+    find renderer images scene_io editing materials integrators apps tests -name '*.cpp' -o -name '*.h'
   fi
 )
 failed=0

@@ -41,16 +41,16 @@ HOMES = [
     (r"(tiny_gltf|stb_image.*)\.h$", ["scene_io/gltf/"]),
     (r"draco/", ["scene_io/gltf/geometry/draco", "scene_io/support/draco_"]),
     (r"meshoptimizer\.h$", ["scene_io/gltf/geometry/meshopt"]),
-    (r"nlohmann/", ["scene_io/", "renderer/apps/"]),
-    (r"CLI/", ["renderer/apps/"]),
-    (r"(Qt\w*/|Q[A-Z]\w*$)", ["renderer/apps/editor"]),
+    (r"nlohmann/", ["scene_io/", "apps/"]),
+    (r"CLI/", ["apps/"]),
+    (r"(Qt\w*/|Q[A-Z]\w*$)", ["apps/editor"]),
     (r"(gtest|gmock|benchmark)/", ["tests/"]),
 ]
 # Headers of the system, with a dot or a slash in their names as third-party ones have.
 SYSTEM = re.compile(r"(sys/\w+|unistd|fcntl|signal|pthread|sched|dlfcn|termios|\wmmintrin|x86intrin)\.h$")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-FOLDERS = ["renderer", "images", "scene_io", "editing", "materials", "integrators", "tests"]
+FOLDERS = ["renderer", "images", "scene_io", "editing", "materials", "integrators", "apps", "tests"]
 
 
 def layer_of(path):

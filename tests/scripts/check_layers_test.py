@@ -34,7 +34,7 @@ BAD = [
     ("renderer/session/session.h", "#include <embree4/rtcore.h>", "<embree4/rtcore.h> belongs to renderer/accel/"),
     ("renderer/base/math.h", "#include <tbb/tbb.h>", "<tbb/tbb.h> belongs to"),
     ("images/image_io.cpp", "#include <OpenImageIO/imageio.h>", "belongs to images/oiio/"),
-    ("renderer/apps/main.cpp", "#include <QWidget>", "belongs to renderer/apps/editor"),
+    ("apps/command_line/main.cpp", "#include <QWidget>", "belongs to apps/editor"),
     ("materials/bsdf.h", "#include <gtest/gtest.h>", "belongs to tests/"),
     ("tests/materials/bsdf_test.cpp", "#include <OpenColorIO/OpenColorIO.h>", "belongs to renderer/color/"),
     ("integrators/path.cpp", "#include <boost/any.hpp>", "no home here"),

@@ -1,0 +1,52 @@
+/// The tree of nodes as Qt's views see it: a name that can be edited, and whether the node is visible. Nodes
+/// dragged onto others become their children.
+#pragma once
+
+#include <QAbstractItemModel>
+
+#include <vector>
+
+#include "apps/editor/document.h"
+
+namespace parian::editor {
+
+class NodeModel : public QAbstractItemModel {
+  Q_OBJECT
+
+ public:
+  enum Column { kName, kVisible, kColumns };
+
+  explicit NodeModel(Document& document, QObject* parent = nullptr);
+
+  int node_at(const QModelIndex& index) const { return index.isValid() ? int(index.internalId()) : kNone; }
+  QModelIndex index_of(int node, int column = kName) const;
+
+  QModelIndex index(int row, int column, const QModelIndex& parent) const override;
+  QModelIndex parent(const QModelIndex& index) const override;
+  int rowCount(const QModelIndex& parent) const override;
+  int columnCount(const QModelIndex&) const override { return kColumns; }
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  Qt::DropActions supportedDropActions() const override { return Qt::MoveAction; }
+  QStringList mimeTypes() const override;
+  QMimeData* mimeData(const QModelIndexList& indices) const override;
+  bool dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,
+                    const QModelIndex& parent) override;
+
+ private:
+  const std::vector<int>& children(const QModelIndex& parent) const;
+  void follow();
+  void read_tree();
+
+  Document& document_;
+  // Of the scene that the views know.
+  std::shared_ptr<const Scene> scene_;
+  std::vector<int> parents_, rows_;
+};
+
+/// What a node is called: its name, or what it shows.
+QString node_label(const Scene& scene, int node);
+
+}  // namespace parian::editor
