@@ -49,8 +49,9 @@ void Autosave::write() {
   const QJsonObject notes{{"original", document_.path()}, {"process", qint64(getpid())}};
   thread_ = std::thread([this, writer = document_.writer(), text = QJsonDocument(notes).toJson()] {
     try {
-      writer(file_);
+      // In this order: a copy without notes would not be found.
       write_file(notes_of(file_).toStdString(), std::string_view(text.constData(), std::size_t(text.size())));
+      writer(file_);
     } catch (const std::exception&) {
       // A full disk, or a folder that is gone: the scene itself is as it was, and the next edit tries again.
     }

@@ -11,7 +11,7 @@ namespace parian::editor {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval(25);  // between images, at least: above 30 a second
-constexpr double kFirstFrame = 0.03;                     // seconds, see RenderSettings::first_frame
+constexpr double kFirstFrame = 0.02;                     // seconds, see RenderSettings::first_frame
 constexpr std::uint32_t kSamples = 4096;                 // then the picture rests
 
 QImage to_image(const Picture& shown) {

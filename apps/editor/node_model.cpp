@@ -19,6 +19,26 @@ bool same_tree(const Scene& a, const Scene& b) {
   return a.roots == b.roots && std::ranges::equal(a.nodes, b.nodes, {}, &Node::children, &Node::children);
 }
 
+/// For each node of a scene where it is after an edit that left most of them in their order; kNone: it is
+/// gone.
+std::vector<int> find_again(const Scene& before, const Scene& after) {
+  const auto is_like = [](const Node& a, const Node& b) {
+    return a.name == b.name && a.mesh == b.mesh && a.shape == b.shape && a.light == b.light &&
+           a.camera == b.camera;
+  };
+  std::vector<int> places(before.nodes.size(), kNone);
+  const bool same_count = before.nodes.size() == after.nodes.size();
+  const bool fewer = before.nodes.size() > after.nodes.size();
+  std::size_t i = 0, j = 0;
+  while (i < before.nodes.size() && j < after.nodes.size()) {
+    if (same_count || is_like(before.nodes[i], after.nodes[j]))
+      places[i++] = int(j++);
+    else
+      ++(fewer ? i : j);
+  }
+  return places;
+}
+
 }  // namespace
 
 QString node_label(const Scene& scene, int index) {
@@ -41,6 +61,7 @@ NodeModel::NodeModel(Document& document, QObject* parent) : QAbstractItemModel(p
 }
 
 void NodeModel::read_tree() {
+  if (scene_) renumbered_ = find_again(*scene_, document_.scene());
   scene_ = document_.share();
   parents_ = edit::find_parents(*scene_);
   rows_.assign(scene_->nodes.size(), 0);

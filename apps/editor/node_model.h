@@ -20,6 +20,8 @@ class NodeModel : public QAbstractItemModel {
 
   int node_at(const QModelIndex& index) const { return index.isValid() ? int(index.internalId()) : kNone; }
   QModelIndex index_of(int node, int column = kName) const;
+  /// After a reset: the number that a node of before has now; kNone: it is gone.
+  int renumbered(int node) const { return renumbered_[std::size_t(node)]; }
 
   QModelIndex index(int row, int column, const QModelIndex& parent) const override;
   QModelIndex parent(const QModelIndex& index) const override;
@@ -44,6 +46,7 @@ class NodeModel : public QAbstractItemModel {
   // Of the scene that the views know.
   std::shared_ptr<const Scene> scene_;
   std::vector<int> parents_, rows_;
+  std::vector<int> renumbered_;
 };
 
 /// What a node is called: its name, or what it shows.

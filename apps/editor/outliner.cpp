@@ -7,39 +7,14 @@
 
 namespace parian::editor {
 
-ElementModel::ElementModel(Document& document, Selection::Kind kind, QObject* parent)
-    : QAbstractListModel(parent), document_(document), kind_(kind) {
-  follow();
-  connect(&document_, &Document::scene_changed, this, &ElementModel::follow);
-  connect(&document_, &Document::scene_replaced, this, &ElementModel::follow);
-}
-
-void ElementModel::follow() {
-  QStringList names;
-  const auto read = [&](const auto& elements, const QString& unnamed) {
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      names << (elements[i].name.empty() ? unnamed.arg(i) : QString::fromStdString(elements[i].name));
-  };
-  const Scene& scene = document_.scene();
-  if (kind_ == Selection::Kind::material) read(scene.materials, tr("material %1"));
-  if (kind_ == Selection::Kind::light) read(scene.lights, tr("light %1"));
-  if (kind_ == Selection::Kind::camera) read(scene.cameras, tr("camera %1"));
-  if (names == names_) return;
-  beginResetModel();
-  names_ = names;
-  endResetModel();
-}
-
-QVariant ElementModel::data(const QModelIndex& index, int role) const {
-  return role == Qt::DisplayRole && index.row() < names_.size() ? names_[index.row()] : QVariant();
-}
-
 Outliner::Outliner(Document& document, QWidget* parent) : QTabWidget(parent), document_(document) {
   addTab(make_tree(), tr("Nodes"));
-  addTab(make_list(Selection::Kind::material), tr("Materials"));
-  addTab(make_list(Selection::Kind::light), tr("Lights"));
-  addTab(make_list(Selection::Kind::camera), tr("Cameras"));
+  addTab(new ElementList(document_, Selection::Kind::material, this), tr("Materials"));
+  addTab(new ElementList(document_, Selection::Kind::light, this), tr("Lights"));
+  addTab(new ElementList(document_, Selection::Kind::camera, this), tr("Cameras"));
   connect(&document_, &Document::selection_changed, this, &Outliner::show_selection);
+  connect(&document_, &Document::scene_replaced, this, &Outliner::expand_first);
+  expand_first();
 }
 
 QWidget* Outliner::make_tree() {
@@ -63,17 +38,24 @@ QWidget* Outliner::make_tree() {
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(NodeModel::kName, QHeaderView::Stretch);
   tree_->header()->setSectionResizeMode(NodeModel::kVisible, QHeaderView::ResizeToContents);
-  tree_->expandToDepth(1);
   connect(search, &QLineEdit::textChanged, this, [this](const QString& text) {
     showing_ = true;  // what is not found stays selected
     found_->setFilterFixedString(text);
     showing_ = false;
-    if (!text.isEmpty()) tree_->expandAll();
+    expand_again();
     show_selection();
   });
   connect(tree_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &Outliner::select_from_tree);
+  const auto node_of = [this](const QModelIndex& row) { return nodes_->node_at(found_->mapToSource(row)); };
+  connect(tree_, &QTreeView::expanded, this, [=, this](const QModelIndex& i) { expanded_ << node_of(i); });
+  connect(tree_, &QTreeView::collapsed, this,
+          [=, this](const QModelIndex& i) { expanded_.remove(node_of(i)); });
   connect(found_, &QAbstractItemModel::modelReset, this, [this] {
-    tree_->expandToDepth(1);
+    QSet<int> now;
+    for (const int node : expanded_)
+      if (const int place = nodes_->renumbered(node); place != kNone) now << place;
+    expanded_ = now;
+    expand_again();
     show_selection();
   });
   auto* layout = new QVBoxLayout(page);
@@ -83,16 +65,23 @@ QWidget* Outliner::make_tree() {
   return page;
 }
 
-QListView* Outliner::make_list(Selection::Kind kind) {
-  auto* list = new QListView(this);
-  list->setModel(new ElementModel(document_, kind, list));
-  list->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  const auto choose = [this, kind](const QModelIndex& index) {
-    if (index.isValid()) document_.select({kind, {index.row()}});
-  };
-  connect(list, &QListView::clicked, this, choose);
-  connect(list, &QListView::activated, this, choose);
-  return list;
+/// As a scene is first shown: the roots and their children.
+void Outliner::expand_first() {
+  expanded_.clear();
+  const Scene& scene = document_.scene();
+  for (const int root : scene.roots) {
+    expanded_ << root;
+    for (const int child : scene.nodes[std::size_t(root)].children) expanded_ << child;
+  }
+  erase_if(expanded_, [&](int node) { return scene.nodes[std::size_t(node)].children.empty(); });
+  expand_again();
+}
+
+void Outliner::expand_again() {
+  const QSignalBlocker quiet(tree_);
+  if (!found_->filterRegularExpression().pattern().isEmpty()) return tree_->expandAll();
+  tree_->collapseAll();
+  for (const int node : expanded_) tree_->expand(found_->mapFromSource(nodes_->index_of(node)));
 }
 
 void Outliner::select_from_tree() {

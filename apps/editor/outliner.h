@@ -2,33 +2,16 @@
 /// cameras.
 #pragma once
 
-#include <QAbstractListModel>
 #include <QLineEdit>
-#include <QListView>
+#include <QSet>
 #include <QSortFilterProxyModel>
 #include <QTabWidget>
 #include <QTreeView>
 
+#include "apps/editor/element_list.h"
 #include "apps/editor/node_model.h"
 
 namespace parian::editor {
-
-/// The names of the scene's elements of one kind.
-class ElementModel : public QAbstractListModel {
-  Q_OBJECT
-
- public:
-  ElementModel(Document& document, Selection::Kind kind, QObject* parent = nullptr);
-  int rowCount(const QModelIndex& parent) const override { return parent.isValid() ? 0 : int(names_.size()); }
-  QVariant data(const QModelIndex& index, int role) const override;
-
- private:
-  void follow();
-
-  Document& document_;
-  Selection::Kind kind_;
-  QStringList names_;
-};
 
 class Outliner : public QTabWidget {
   Q_OBJECT
@@ -38,14 +21,16 @@ class Outliner : public QTabWidget {
 
  private:
   QWidget* make_tree();
-  QListView* make_list(Selection::Kind kind);
   void select_from_tree();
   void show_selection();
+  void expand_first();
+  void expand_again();
 
   Document& document_;
   NodeModel* nodes_;
   QSortFilterProxyModel* found_;
   QTreeView* tree_;
+  QSet<int> expanded_;    // nodes, but for what a search expands
   bool showing_ = false;  // the selection of the document in the tree
 };
 

@@ -118,8 +118,13 @@ bool Session::plan_pass() {
   }
   if (done >= settings_.spp) return false;
   // Passes of 1, 1, 2, 4, 8, 16, 16 ... samples: the first pictures come at once, and later passes are long
-  // enough that their ends, where threads wait for each other, do not count.
-  const std::uint32_t step = std::min(std::clamp(done, 1u, 16u), settings_.spp - done);
+  // enough that their ends, where threads wait for each other, do not count. Who watches sees them more
+  // often.
+  constexpr double kWatchedSeconds = 0.5;
+  const double pass = sample_seconds_ * full_.film->width() * full_.film->height();
+  const bool watched = settings_.first_frame > 0;
+  const auto most = std::uint32_t(watched ? std::clamp(kWatchedSeconds / pass, 1.0, 16.0) : 16.0);
+  const std::uint32_t step = std::min(std::clamp(done, 1u, most), settings_.spp - done);
   full_.film->set_plan(std::vector(full_.film->plan().size(), done + step));
   return true;
 }

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "editing/nodes.h"
 #include "editing/tree.h"
 #include "tests/apps/editor/support/editor_test.h"
 #include "tests/apps/editor/support/widgets.h"
@@ -163,6 +164,50 @@ TEST_F(OutlinerTest, ListsSelect) {
   ASSERT_GT(list(2)->model()->rowCount(), 1);
   click(*list(2), list(2)->model()->index(1, 0));
   EXPECT_EQ(document_.selection(), (Selection{Kind::light, {1}}));
+}
+
+TEST_F(OutlinerTest, ListsShowWhatIsSelected) {
+  const auto chosen = [&](int tab) {
+    const QModelIndexList rows =
+        qobject_cast<QListView*>(outliner_.widget(tab))->selectionModel()->selectedRows();
+    return rows.size() == 1 ? rows[0].data().toString() : QString();
+  };
+  document_.select({Selection::Kind::material, {2}});
+  EXPECT_EQ(chosen(1), "green");
+  document_.select({Selection::Kind::camera, {0}});
+  EXPECT_EQ(chosen(1), "");
+  EXPECT_EQ(chosen(3), "camera");
+  document_.edit("Rename", [](Scene& s) { s.cameras[0].name = "eye"; });
+  EXPECT_EQ(chosen(3), "eye") << "the list is made anew";
+  document_.select_node(0);
+  EXPECT_EQ(chosen(3), "");
+}
+
+// What is open and what is closed stays so when rows come and go, and nodes get other numbers.
+TEST_F(OutlinerTest, StaysExpanded) {
+  document_.edit("Group", [](Scene& s) {
+    int top = edit::group(s, std::vector{5, 6}, "inner");
+    for (const char* name : {"middle", "outer"}) top = edit::group(s, std::vector{top}, name);
+  });
+  EXPECT_FALSE(tree().isExpanded(row("outer"))) << "it is new";
+  tree().expand(row("outer"));
+  tree().expand(row("middle"));
+  const auto expect_as_before = [&](const char* after) {
+    EXPECT_TRUE(tree().isExpanded(row("outer"))) << after;
+    EXPECT_TRUE(tree().isExpanded(row("middle"))) << after;
+    EXPECT_FALSE(tree().isExpanded(row("inner"))) << after;
+  };
+  document_.edit("Delete", [&](Scene& s) { edit::remove(s, node("ceiling")); });
+  expect_as_before("a node of a lower number is gone");
+  document_.history().undo();
+  expect_as_before("it is back");
+  auto* search = outliner_.findChild<QLineEdit*>("search");
+  search->setText("block");
+  EXPECT_TRUE(tree().isExpanded(row("inner"))) << "what is found is seen";
+  search->clear();
+  expect_as_before("a search");
+  document_.load({scene_file("cornell-box")});
+  EXPECT_FALSE(tree().isExpanded(row("tall block"))) << "numbers of another scene";
 }
 
 }  // namespace

@@ -69,6 +69,28 @@ TEST_F(GizmoDragTest, TurnsAndScales) {
   EXPECT_GT(std::abs(tall().transform.rotation.v.y), 0.01f);
 }
 
+TEST_F(GizmoDragTest, SnapsToSteps) {
+  viewport_.set_snapping(true);
+  drag(Qt::LeftButton, handle_, to_pixel(origin_ + Vec3f(0.7f * along_ + 0.13f, 0, 0)) - handle_);
+  EXPECT_FLOAT_EQ(tall().transform.translation.x, 0.1f);
+  viewport_.set_snapping(false);
+  drag(Qt::LeftButton, handle_ + QPoint(10, 0), {7, 0});
+  EXPECT_GT(std::abs(tall().transform.translation.x - 0.1f), 0.005f);
+}
+
+// Turned by a quarter about y, its own x axis is the world's -z.
+TEST_F(GizmoDragTest, FollowsItsOwnAxes) {
+  document_.edit("Turn", [](Scene& s) {
+    Quatf turn;
+    turn.setAxisAngle({0, 1, 0}, 0.5f * kPi);
+    edit::set_transform(s, kTall, {.translation = {}, .rotation = turn, .scale = {}});
+  });
+  EXPECT_LT((viewport_.gizmo()->axes.x - Vec3f(1, 0, 0)).length(), 1e-5f);
+  viewport_.set_local_axes(true);
+  EXPECT_LT((viewport_.gizmo()->axes.x - Vec3f(0, 0, -1)).length(), 1e-5f);
+  EXPECT_LT((viewport_.gizmo()->axes.z - Vec3f(1, 0, 0)).length(), 1e-5f);
+}
+
 TEST_F(GizmoDragTest, EscapeTakesItBack) {
   const Scene before = document_.scene();
   QTest::mousePress(&viewport_, Qt::LeftButton, {}, handle_);
