@@ -31,7 +31,7 @@ TEST(LiveSession, ACoarseFrameComesFirstAndChangesNothing) {
   ASSERT_TRUE(wait_for_frames(session, 1));
   session.wait();
   const std::uint64_t frames = session.frames();
-  EXPECT_EQ(frames, 1 + 5u);  // coarse; 1, 2, 4, 8, 9 samples
+  EXPECT_GE(frames, 1 + 5u);  // coarse; 1, 2, 4, 8, 9 samples, or more often where they take long
   RenderSettings settings = small(9);
   settings.accel.editable = true;
   Session plain = make_session(everything(), settings);
