@@ -11,8 +11,9 @@ namespace parian::editor {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval(25);  // between images, at least: above 30 a second
-constexpr double kFirstFrame = 0.02;                     // seconds, see RenderSettings::first_frame
-constexpr std::uint32_t kSamples = 4096;                 // then the picture rests
+constexpr qint64 kNoiseInterval = 200;    // milliseconds; a number that changes faster is not read
+constexpr double kFirstFrame = 0.02;      // seconds, see RenderSettings::first_frame
+constexpr std::uint32_t kSamples = 4096;  // then the picture rests
 
 QImage to_image(const Picture& shown) {
   QImage image(shown.width, shown.height, QImage::Format_RGB32);
@@ -161,7 +162,7 @@ void LiveRender::follow(const Request& request) {
     current = std::make_shared<Session>(std::make_shared<const Scene>(with_view(*scene, view)), settings,
                                         make_integrator("path", {}));
     current->start();
-    shown_ = 0;
+    shown_ = measured_ = 0;
     const std::lock_guard lock(mutex_);
     session_ = current;
     return;
@@ -187,18 +188,22 @@ void LiveRender::publish() {
     view = display_view_;
     exposure = exposure_;
   }
-  if (frames == 0 || frames == shown_) {
-    if (!progress.running) current->wait();  // what ended it, if anything did
-    return;
+  if (frames != 0 && frames != shown_) {
+    // Kept between frames: to find what a view needs takes longer than a frame.
+    static thread_local std::pair<std::string, std::optional<Display>> display;
+    if (!display.second || display.first != view) display = {view, Display(view, true)};
+    emit frame_ready(to_image(display.second->apply(current->beauty(), exposure)));
+    shown_ = frames;
+  } else if (!progress.running) {
+    current->wait();  // what ended it, if anything did
   }
-  // Kept between frames: to find what a view needs takes longer than a frame.
-  static thread_local std::pair<std::string, std::optional<Display>> display;
-  if (!display.second || display.first != view) display = {view, Display(view, true)};
-  emit frame_ready(to_image(display.second->apply(current->beauty(), exposure)));
-  shown_ = frames;
-  const double noise = current->noise().bound;
-  const std::lock_guard lock(mutex_);
-  status_.noise = noise;
+  if (frames != measured_ && (!noise_clock_.isValid() || noise_clock_.hasExpired(kNoiseInterval))) {
+    measured_ = frames;
+    noise_clock_.start();
+    const double noise = current->noise().bound;
+    const std::lock_guard lock(mutex_);
+    status_.noise = noise;
+  }
 }
 
 }  // namespace parian::editor

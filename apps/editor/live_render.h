@@ -2,6 +2,7 @@
 /// All that takes time happens on a thread of its own.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <QObject>
 #include <QPointF>
@@ -85,7 +86,8 @@ class LiveRender : public QObject {
   LiveStatus status_;
 
   // Of the thread alone.
-  std::uint64_t shown_ = 0;
+  std::uint64_t shown_ = 0, measured_ = 0;  // frames
+  QElapsedTimer noise_clock_;
   std::jthread thread_;  // last: ends before anything else does
 };
 

@@ -117,8 +117,10 @@ class Film {
   FilmLayers layers_;
   std::vector<PixelSums> pixels_;
   std::vector<FeatureSums> features_;
-  std::vector<std::uint64_t> rays_;  // by blocks
+  // By blocks.
+  std::vector<std::uint64_t> rays_;
   std::vector<std::uint32_t> plan_;
+  std::vector<char> used_;    // something was merged there since all was black
   mutable std::mutex mutex_;  // merging is rare and short next to rendering a tile
 };
 

@@ -147,11 +147,25 @@ TEST(Film, ResolvesTheLayersThatWereAskedFor) {
 }
 
 TEST(Film, ClearForgets) {
-  Film film(3, 2, {.features = true});
+  const std::vector<char> black = Film(11, 9, {.features = true}).save();
+  Film film(11, 9, {.features = true});
   render(film, 0, 3, 2);
+  const std::vector<char> rendered = film.save();
   film.clear();
-  EXPECT_EQ(film.save(), Film(3, 2, {.features = true}).save());
+  EXPECT_EQ(film.save(), black);
   EXPECT_EQ(film.min_samples(), 0u);
+  // One tile alone, and what was restored.
+  film.merge(film.checkout({8, 4, 11, 9}));
+  FilmTile tile = film.checkout({4, 4, 8, 8});
+  add(tile, 3, 3, Rgb(1));
+  tile.rays[0] = 7;
+  film.merge(tile);
+  EXPECT_NE(film.save(), black);
+  film.clear();
+  EXPECT_EQ(film.save(), black);
+  film.restore(rendered);
+  film.clear();
+  EXPECT_EQ(film.save(), black);
 }
 
 // The claim of the variance layer and of the noise: over many films the spread of the mean is what they say.
