@@ -158,11 +158,13 @@ TEST(TakeOver, PairsComeWithTheWayBackToTheirTriangles) {
   const Built swapped = edited_from(added, renumbered(edited, {1, 0}));
   expect_hits_on_triangles(swapped);
   EXPECT_EQ(swapped.accel->builds().meshes, 3);
-  // Hidden and shown again.
+  // Hidden with other numbers, and shown again with those of before.
   Scene hidden = edited;
   hidden.nodes[0].mesh = kNone;
   const Built without = edited_from(swapped, hidden);
-  expect_hits_on_triangles(edited_from(without, edited));
+  const Built shown = edited_from(without, renumbered(edited, {1, 0}));
+  expect_hits_on_triangles(shown);
+  EXPECT_EQ(shown.accel->builds().meshes, 3);
 }
 
 // The memory of the quick BVH, which takes half as much again as the better one, goes when that is adopted.
