@@ -75,5 +75,14 @@ TEST(FirstFrame, EditsDoNotWaitForASlowOne) {
   EXPECT_LT(slow.gate->estimates, SlowSession::kPackets);
 }
 
+// One that was given up has told how slow it is. Caught: the full resolution again and again, since too few
+// of its tiles were done to know.
+TEST(FirstFrame, IsCoarseAfterOneThatWasTooSlow) {
+  SlowSession slow;
+  ASSERT_TRUE(slow.edit());
+  ASSERT_TRUE(wait_until([&] { return slow.session.frames() > 0; }));
+  EXPECT_LT(slow.session.snapshot().width, 160);
+}
+
 }  // namespace
 }  // namespace parian
