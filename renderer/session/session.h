@@ -217,7 +217,7 @@ class Session {
   std::atomic<double> done_{0};  // share of the render, when the pass in progress was planned
   Clock::time_point started_, pass_started_;
   bool first_pass_ = false;                     // of a film that edits wait for
-  std::atomic<std::uint64_t> pass_samples_{0};  // of the tiles that are done of the pass
+  std::atomic<std::uint64_t> pass_samples_{0};  // of the pass, those of tiles given up included
   std::atomic<std::size_t> merged_tiles_{0};
   double sample_seconds_ = 1e-6;  // of one sample of one pixel, all threads together, as it was last
   mutable std::mutex stats_mutex_;

@@ -140,9 +140,11 @@ bool Session::render_pass(const Target& target) {
 }
 
 void Session::learn_cost() {
-  constexpr std::uint64_t kLeast = 1000;  // fewer say little
-  if (const std::uint64_t samples = pass_samples_; samples >= kLeast)
-    sample_seconds_ = seconds_since(pass_started_) / double(samples);
+  constexpr std::uint64_t kLeast = 1000;  // fewer say little, but where they took long
+  const std::uint64_t samples = pass_samples_;
+  const double seconds = seconds_since(pass_started_);
+  if (samples >= kLeast || (samples > 0 && seconds > settings_.first_frame))
+    sample_seconds_ = seconds / double(samples);
 }
 
 void Session::render_tile(const Target& target, const Tile& area) {
@@ -158,7 +160,10 @@ void Session::render_tile(const Target& target, const Tile& area) {
       render_block(target, tile, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)},
                    film.plan()[block], counts);
       *rays += counts.total() - before;
-      if (interrupted()) return;  // the tile is given up
+      if (interrupted()) {  // the tile is given up
+        pass_samples_ += counts.camera;
+        return;
+      }
     }
   film.merge(tile);
   pass_samples_ += counts.camera;

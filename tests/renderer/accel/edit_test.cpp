@@ -20,25 +20,6 @@ Scene editable_scene() {
   return scene;
 }
 
-void expect_same_hits(const Built& a, const Built& b) {
-  TestRandom random(51);
-  int hits = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const Ray ray = random_ray(random, {-5, -5, -5}, {5, 5, 5});
-    Hit one{}, two{};
-    const bool found = a.accel->intersect(ray, 0, one);
-    ASSERT_EQ(found, b.accel->intersect(ray, 0, two));
-    ASSERT_EQ(a.accel->occluded(ray, 0), found);
-    if (!found) continue;
-    ++hits;
-    ASSERT_EQ(one.placement, two.placement);
-    ASSERT_EQ(one.primitive, two.primitive);
-    ASSERT_EQ(one.triangle, two.triangle);
-    ASSERT_NEAR(one.t, two.t, 1e-5f * (1 + two.t));
-  }
-  EXPECT_GT(hits, 1000);
-}
-
 // Caught: an edit that leaves flattened vertices, or the area lights, where they were; a mesh built anew for
 // a move.
 TEST(Accel, UpdateMovesPlacementsAndAreaLights) {

@@ -137,6 +137,49 @@ TEST(LiveSession, PickSaysWhatIsThere) {
   EXPECT_TRUE(session.node_bounds(3).isEmpty());
 }
 
+// Shapes below a node that is moved and scaled: a box, which is traced as a mesh that the scene does not
+// have, and spheres, of which one stays round and one does not. Caught: the
+// number of the mesh that a box is traced as, a solid's number as its node's, a place without the scale.
+TEST(LiveSession, PickKnowsShapesOfMovedAndScaledNodes) {
+  Scene scene;
+  const int material = add_material(scene, make_lambert(Rgb(1)));
+  add_mesh(scene, make_quad({-3, 0, 0}, {1, 0, 0}, {0, 1, 0}), material);
+  for (const float x : {0.f, 1.f, 2.f}) {
+    const Shape shape = x == 0 ? make_flat_shape(ShapeKind::box, Vec3f(0.5f)) : make_sphere(0.25f);
+    add_shape(scene, shape, add_material(scene, make_lambert(Rgb(x / 2))), translate({x, 0, 0}));
+  }
+  scene.nodes[3].transform.scale = {1, 2, 1};
+  Node group;
+  group.transform = translate({-1, 1, 1});
+  group.transform.scale = Vec3f(2);
+  group.children = {1, 2, 3};
+  scene.roots.resize(1);
+  add_root(scene, group);  // 4
+  Camera camera;
+  camera.projection = Projection::orthographic;
+  camera.xmag = camera.ymag = 4;
+  add_camera(scene, camera, translate({0, 0, 5}));
+  RenderSettings settings;
+  settings.width = settings.height = 80;  // 10 pixels for a metre
+  settings.accel.editable = true;
+  Session session = make_session(scene, settings);
+  for (int i = 1; i <= 3; ++i) {
+    const float x = float(2 * i - 3);
+    const auto pick = session.pick(40 + 10 * x, 40 - 10);
+    ASSERT_TRUE(pick) << i;
+    EXPECT_EQ(pick->node, i);
+    EXPECT_EQ(pick->material, i);
+    EXPECT_EQ(pick->mesh, kNone);
+    EXPECT_EQ(pick->primitive, kNone);
+    EXPECT_NEAR((pick->position - Vec3f(x, 1, 1.5f)).length(), 0, 1e-5);
+    EXPECT_NEAR(pick->depth, 3.5f, 1e-5);
+    const Vec3f half(0.5f, i == 3 ? 1 : 0.5f, 0.5f);
+    const Box3f box = session.node_bounds(i);
+    EXPECT_NEAR((box.max - Vec3f(x, 1, 1) - half).length(), 0, 1e-5);
+    EXPECT_NEAR((box.min - Vec3f(x, 1, 1) + half).length(), 0, 1e-5);
+  }
+}
+
 // Of a perspective camera, off its axis, the depth is less than the distance; a lens changes nothing.
 TEST(LiveSession, DepthIsAlongTheAxis) {
   Scene scene;
@@ -186,17 +229,19 @@ TEST(LiveSession, QuestionsWhileEditsGoOn) {
   EXPECT_GT(found, 100);
 }
 
-// A mesh of 128,880 triangles is built quickly, then better, while it renders.
+// Meshes of 128,880 triangles are built quickly, then better, while it renders: each that comes.
+// Caught: the second one left as it was built first.
 TEST(LiveSession, LargeMeshesGetBetterWhileItRenders) {
   Scene scene = everything();
-  RenderSettings settings = live(kNoLimit);
-  Session session = make_session(scene, settings);
+  Session session = make_session(scene, live(kNoLimit));
   session.start();
-  add_mesh(scene, make_uv_sphere({0, 0, 0}, 0.5f, 180), 1);
-  session.update(std::make_shared<const Scene>(scene), kChangedGeometry);
-  for (int i = 0; i < 5000 && session.stats().builds.refined == 0; ++i)
-    std::this_thread::sleep_for(milliseconds(2));
-  EXPECT_EQ(session.stats().builds.refined, 1);
+  for (int i = 1; i <= 2; ++i) {
+    add_mesh(scene, make_uv_sphere({0, 0, 0}, 0.5f * float(i), 180), 1);
+    session.update(std::make_shared<const Scene>(scene), kChangedGeometry);
+    for (int k = 0; k < 30000 && session.stats().builds.refined < i; ++k)
+      std::this_thread::sleep_for(milliseconds(2));
+    ASSERT_EQ(session.stats().builds.refined, i);
+  }
   session.cancel();
 }
 

@@ -1,6 +1,8 @@
 /// Scenes with what is built from them, and rays through them, for the tests of ray queries.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -87,6 +89,26 @@ inline Ray random_ray(TestRandom& random, const Vec3f& low, const Vec3f& high) {
   };
   const Vec3f origin = point();
   return {origin, normalize(point() - origin)};
+}
+
+/// Random rays, more than 1,000 of which must meet something, meet the same.
+inline void expect_same_hits(const Built& a, const Built& b) {
+  TestRandom random(51);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Ray ray = random_ray(random, {-5, -5, -5}, {5, 5, 5});
+    Hit one{}, two{};
+    const bool found = a.accel->intersect(ray, 0, one);
+    ASSERT_EQ(found, b.accel->intersect(ray, 0, two));
+    ASSERT_EQ(a.accel->occluded(ray, 0), found);
+    if (!found) continue;
+    ++hits;
+    ASSERT_EQ(one.placement, two.placement);
+    ASSERT_EQ(one.primitive, two.primitive);
+    ASSERT_EQ(one.triangle, two.triangle);
+    ASSERT_NEAR(one.t, two.t, 1e-5f * (1 + two.t));
+  }
+  EXPECT_GT(hits, 1000);
 }
 
 /// A pane in the plane z = -depth that covers `alpha`.
