@@ -84,6 +84,8 @@ TEST(Refusals, OfNodes) {
       {"parent: expected a node outside the subtree", [](Scene& s) { reparent(s, 12, 13); }},
       {"parent: expected a node outside the subtree", [](Scene& s) { reparent(s, 12, 12); }},
       {"position: expected a number from 0 to 1, not 2", [](Scene& s) { reparent(s, 1, 12, 2); }},
+      // Among the others: the node that is moved is not counted.
+      {"position: expected a number from 0 to 12, not 13", [](Scene& s) { reparent(s, 0, kNone, 13); }},
       {"parent: expected a scale other than 0", [](Scene& s) { reparent(s, 1, 13); }},
       {"position: expected a number from 0 to 12, not 13", [](Scene& s) { reorder(s, 0, 13); }},
       {"group: expected one node at least", [](Scene& s) { group(s, std::vector<int>{}, "x"); }},

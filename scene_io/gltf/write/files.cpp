@@ -1,10 +1,12 @@
 /// write_files(): the containers.
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 
 #include "renderer/base/error.h"
+#include "scene_io/gltf/file/file.h"
 #include "scene_io/gltf/write/draft.h"
 #include "scene_io/gltf/write/format.h"
 #include "scene_io/gltf/write/layout.h"
@@ -68,8 +70,14 @@ std::optional<fs::path> find_old_binary(const Draft& draft) try {
   const std::vector<char> text = read_file(draft.path.string());
   const json old = json::parse(text.begin(), text.end());
   const json& buffers = old.at("buffers");
-  if (buffers.size() != 1) return std::nullopt;
-  const fs::path path = draft.folder / buffers[0].at("uri").get<std::string>();
+  // Behind it there may be those that bufferViews fall back to, which stay.
+  const json staying = draft.root.value("buffers", json::array());
+  for (std::size_t i = 1; i < buffers.size(); ++i)
+    if (std::ranges::find(staying, buffers[i]) == staying.end()) return std::nullopt;
+  const fs::path path = resolve_uri(buffers.at(0).at("uri").get<std::string>(), draft.folder);
+  for (const json& buffer : staying)
+    if (buffer.contains("uri") && resolve_uri(buffer["uri"].get<std::string>(), draft.folder) == path)
+      return std::nullopt;
   const bool own =
       path.parent_path() == draft.folder && is_own_name(path.filename().string(), draft.path.stem().string());
   return own ? std::optional(path) : std::nullopt;

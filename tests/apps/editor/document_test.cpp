@@ -88,6 +88,21 @@ TEST_F(DocumentTest, SelectsOnlyWhatIsThere) {
   EXPECT_EQ(document_.selection(), Selection()) << "it is gone";
 }
 
+// Caught: a selection that nothing checks after an edit.
+TEST_F(DocumentTest, AnEditTakesWhatItRemovesOutOfTheSelection) {
+  add_sphere();
+  const int second = add_sphere();
+  const std::vector<int> both{0, second}, left{0};
+  document_.select_node(0);
+  document_.select_node(second, true);
+  document_.edit("Remove", [&](Scene& s) { edit::remove(s, second); });
+  EXPECT_EQ(document_.selection().indices, left);
+  document_.history().undo();
+  EXPECT_EQ(document_.selection().indices, both);
+  document_.history().redo();
+  EXPECT_EQ(document_.selection().indices, left);
+}
+
 TEST_F(DocumentTest, SavesAndLoads) {
   document_.load({scene_file("cornell-box")});
   EXPECT_FALSE(document_.is_modified());

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "editing/add.h"
+#include "editing/nodes.h"
+#include "editing/tree.h"
+#include "tests/apps/editor/support/viewport.h"
+
 namespace parian::editor {
 namespace {
 
@@ -115,6 +120,32 @@ TEST_F(GizmoTest, FindsTheHandleBelowThePointer) {
   }
   gizmo_.mode = GizmoMode::translate;
   EXPECT_EQ(find_handle(gizmo_, projector(), at(gizmo_.origin)), Handle::all);
+}
+
+// Along the axes of the world, whatever the parent does. Caught: a drag that takes the parent's space for it.
+TEST_F(ViewportTest, TheGizmoMovesAChildAsItIsSeen) {
+  Transform turned;
+  turned.translation = {0.1f, 0, -0.2f};
+  turned.rotation = Quatf().setAxisAngle({0, 1, 0}, 0.9f);
+  turned.scale = Vec3f(0.5f);
+  document_.edit("Put below", [&](Scene& s) {
+    edit::reparent(s, kTall, edit::add_group(s, "parent", {kNone, turned}));
+  });
+  document_.select_node(kTall);
+  const auto place = [&] {
+    const Scene& s = document_.scene();
+    return to_affine(edit::find_to_world(s, kTall, edit::find_parents(s))).origin;
+  };
+  const Vec3f before = place(), origin = viewport_.gizmo()->origin;
+  const float along = Gizmo::kLength * viewport_.projector().metres_per_pixel(origin);
+  const QPoint handle = to_pixel(origin + Vec3f(0.7f * along, 0, 0));
+  drag(Qt::LeftButton, handle, to_pixel(origin + Vec3f(1.2f * along, 0, 0)) - handle);
+  EXPECT_EQ(document_.history().undoText(), "Move");
+  const Vec3f moved = place() - before;
+  EXPECT_NEAR(moved.x, 0.5f * along, 0.05f * along);
+  EXPECT_NEAR(moved.y, 0, 1e-5f);
+  EXPECT_NEAR(moved.z, 0, 1e-5f);
+  EXPECT_FALSE(tall().transform.matrix) << "a turned parent of one scale shears nothing";
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "apps/editor/projector.h"
+#include "editing/nodes.h"
 #include "renderer/scene/camera.h"
+#include "tests/apps/editor/support/viewport.h"
 
 namespace parian::editor {
 namespace {
@@ -131,6 +133,20 @@ TEST(WithView, KeepsAllIndices) {
   EXPECT_EQ(shown.nodes[2].camera, 1);
   EXPECT_EQ(place_cameras(shown).at(0).node, 2) << "the first camera of the world, whatever else there is";
   EXPECT_NO_THROW(validate(shown, "shown"));
+}
+
+// A picture that is paused stays what it is. Caught: edits followed at once; edits that are lost.
+TEST_F(ViewportTest, AnEditWaitsForTheEndOfAPause) {
+  LiveRender& render = viewport_.render();
+  const Box3f before = render.bounds(kTall);
+  ASSERT_FALSE(before.isEmpty());
+  render.set_paused(true);
+  ASSERT_TRUE(wait_for([&] { return !render.status().running; }));
+  document_.edit("Hide", [](Scene& s) { edit::set_visible(s, kTall, false); });
+  QTest::qWait(100);
+  EXPECT_EQ(render.bounds(kTall), before) << "followed meanwhile";
+  render.set_paused(false);
+  EXPECT_TRUE(wait_for([&] { return render.bounds(kTall).isEmpty(); })) << "lost";
 }
 
 }  // namespace

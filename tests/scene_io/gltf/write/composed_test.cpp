@@ -24,6 +24,8 @@ class WriteComposed : public WriteTest {
         {{"name", name},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}}}},
          {"samplers", {{{"input", times}, {"output", values}}}}}};
+    builder.root["extensions"]["NOBODY_" + name]["of"] = name;
+    builder.root["extensionsUsed"] = {"NOBODY_both", "NOBODY_" + name};
     return write(name + ".glb", builder.glb());
   }
 
@@ -48,6 +50,14 @@ TEST_F(WriteComposed, HaveWhatAllFilesHave) {
   EXPECT_EQ(root["materials"][1]["normalTexture"]["index"], 1);
   EXPECT_EQ(root["scenes"].size(), 2u);
   EXPECT_EQ(root["scenes"][0]["nodes"], json::array({0, 2}));
+}
+
+// Caught: extensions of the second file lost; a name twice in the list.
+TEST_F(WriteComposed, HaveTheExtensionsOfAll) {
+  const json root = written(load_both());
+  EXPECT_EQ(root["extensionsUsed"], json::array({"NOBODY_both", "NOBODY_one", "NOBODY_other"}));
+  for (const std::string name : {"one", "other"})
+    EXPECT_EQ(root["extensions"].value("NOBODY_" + name, json()), (json{{"of", name}}));
 }
 
 // What only a file without anything left in the scene had goes with it.

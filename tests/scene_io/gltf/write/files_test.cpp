@@ -61,6 +61,14 @@ TEST_F(WriteFiles, AGltfKeepsItsBinaryUntilItIsReplaced) {
   EXPECT_EQ(load_with_source(path("x.gltf")).scene, loaded.scene);
 }
 
+// Caught: a URI taken for the name of the file, so that each save left one more .bin.
+TEST_F(WriteFiles, ANameWithBlanksKeepsOneBinary) {
+  const Loaded loaded = load_source(builder);
+  for (int i = 0; i < 3; ++i) write_gltf(loaded.scene, loaded.sources, path("a b.gltf"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"a b.bin", "a b.gltf", "source.glb"}));
+  EXPECT_EQ(load_with_source(path("a b.gltf")).scene, loaded.scene);
+}
+
 TEST_F(WriteFiles, AnotherFilesBinaryIsLeftAlone) {
   const Loaded loaded = load_source(builder);
   write("x.bin", "of somebody else");
@@ -148,6 +156,37 @@ TEST_F(WriteFiles, SharedBytesAreWrittenOnce) {
   write_gltf(loaded.scene, loaded.sources, path("x.glb"));
   EXPECT_LT(fs::file_size(path("x.glb")), fs::file_size(path("source.glb")) + 200);
   EXPECT_EQ(document_of(path("x.glb"))["bufferViews"].size(), views.size());
+}
+
+// Caught: chunks of any length.
+TEST_F(WriteFiles, ChunksOfAGlbAreWholeWords) {
+  builder.add_bytes("abcde");
+  Loaded loaded = load_source(builder);
+  for (const char* name : {"a", "ab", "abc", "abcd"}) {
+    loaded.scene.nodes[0].name = name;
+    write_gltf(loaded.scene, loaded.sources, path("x.glb"));
+    const std::string bytes = read_bytes(path("x.glb"));
+    std::uint32_t header[4];
+    std::memcpy(header, bytes.data(), sizeof(header));
+    EXPECT_EQ(header[2], bytes.size());
+    EXPECT_EQ(header[3] % 4, 0u);
+    EXPECT_EQ(bytes.size() % 4, 0u);
+  }
+}
+
+// Caught: data URIs taken for paths; characters of a path that mean something in a URI.
+TEST_F(WriteFiles, ImagesOfAnyName) {
+  write("from/50%25 #1?.png", png(path("p.png")));
+  builder.root["images"] = {{{"uri", "50%2525%20%231%3F.png"}},
+                            {{"uri", "data:image/png;base64," + base64(png(path("p.png"), 3, 1))}}};
+  builder.root["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  builder.root["materials"] = {{{"normalTexture", {{"index", 0}}}, {"emissiveTexture", {{"index", 1}}}}};
+  const Loaded loaded = load_with_source(write("from/source.glb", builder.glb()));
+  ASSERT_EQ(loaded.scene.images.size(), 2u);
+  EXPECT_EQ(again(loaded, "to/x.glb").scene, loaded.scene);
+  const json images = document_of(path("to/x.glb"))["images"];
+  EXPECT_EQ(images[0]["uri"], "../from/50%2525%20%231%3F.png");
+  EXPECT_EQ(images[1]["uri"], builder.root["images"][1]["uri"]);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 /// A mesh with a skin of two joints, an animation of both and of the camera, and things nobody here reads.
 class WriteForeign : public WriteTest {
  protected:
-  WriteForeign() {
+  void SetUp() override {
+    WriteTest::SetUp();
     json& primitive = builder.add_triangle();
     primitive["attributes"]["JOINTS_0"] =
         builder.add<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");

@@ -210,5 +210,41 @@ TEST_F(WriteMaterials, ChangedTexturesAndSamplers) {
   EXPECT_EQ(again(loaded).scene, loaded.scene);
 }
 
+// Caught: no rotation; the file's set of coordinates or its transform where there is to be none.
+TEST_F(WriteMaterials, UsesOfTexturesThatChange) {
+  Material m;
+  m.normal_texture = kUsed;
+  m.normal_texture.uv_set = 1;
+  m.normal_texture.transform = {0.6f, 1.6f, 3, -0.8f, 1.2f, 4};
+  Loaded loaded = again({scene_of(m), {}}, "first.glb");
+  TextureRef& use = loaded.scene.materials[0].normal_texture;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(use.transform[i], m.normal_texture.transform[i], 1e-6f);
+  use.uv_set = 0;
+  use.transform = TextureRef().transform;
+  EXPECT_EQ(written(loaded)["materials"][0]["normalTexture"], json::parse(R"({"index": 0})"));
+  EXPECT_EQ(again(loaded).scene, loaded.scene);
+}
+
+// Caught: an image of WebP as any other; other encodings of the image that was there before.
+TEST_F(WriteMaterials, ImagesOfOtherTypes) {
+  Material m;
+  m.normal_texture = kUsed;
+  Scene scene = scene_of(m);
+  scene.images[0].name = write("a.webp", "RIFFsizeWEBPand so on");
+  const json made = written({scene, {}});
+  EXPECT_EQ(made["textures"][0], json::parse(R"({"extensions": {"EXT_texture_webp": {"source": 0}}})"));
+  EXPECT_EQ(made["images"][0]["mimeType"], "image/webp");
+  GltfBuilder builder;
+  builder.root["images"] = {{{"uri", "data:image/png;base64," + base64(png(path("p.png")))}},
+                            {{"uri", "same.ktx2"}}};
+  builder.root["textures"] = {{{"source", 0}, {"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}}};
+  builder.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  builder.use_extension("KHR_texture_basisu");
+  Loaded loaded = load_source(builder);
+  write("other.png", png(path("p.png"), 5, 1));
+  loaded.scene.images[0] = read_image(path("other.png"));
+  EXPECT_EQ(written(loaded)["textures"], json::parse(R"([{"source": 0}])"));
+}
+
 }  // namespace
 }  // namespace parian
