@@ -115,21 +115,30 @@ void release_children(Scene& scene, const Node& node) {
 
 }  // namespace
 
+std::vector<int> remove(Scene& scene, std::span<const int> nodes) {
+  for (const int node : nodes) check_node(scene, node);
+  std::vector<bool> stay(scene.nodes.size(), true);
+  for (const int node : find_topmost(scene, nodes))
+    for (const int gone : find_subtree(scene, node)) stay[std::size_t(gone)] = false;
+  const auto drop = [&](std::vector<int>& list) {
+    std::erase_if(list, [&](int node) { return !stay[std::size_t(node)]; });
+  };
+  drop(scene.roots);
+  for (Node& node : scene.nodes) drop(node.children);
+  return remove_nodes(scene, stay);
+}
+
 std::vector<int> remove(Scene& scene, int node, Removal removal) {
+  if (removal == Removal::subtree) return remove(scene, {&node, 1});
   check_node(scene, node);
   std::vector<int>& siblings = children_of(scene, find_parents(scene)[std::size_t(node)]);
   const auto at = std::ranges::find(siblings, node);
   std::vector<bool> stay(scene.nodes.size(), true);
-  if (removal == Removal::subtree) {
-    for (const int gone : find_subtree(scene, node)) stay[std::size_t(gone)] = false;
-    if (at != siblings.end()) siblings.erase(at);
-  } else {
-    stay[std::size_t(node)] = false;
-    release_children(scene, scene.nodes[std::size_t(node)]);
-    const std::vector<int> heirs = std::exchange(scene.nodes[std::size_t(node)].children, {});
-    // What no scene shows, it does not show then either.
-    if (at != siblings.end()) siblings.insert(siblings.erase(at), heirs.begin(), heirs.end());
-  }
+  stay[std::size_t(node)] = false;
+  release_children(scene, scene.nodes[std::size_t(node)]);
+  const std::vector<int> heirs = std::exchange(scene.nodes[std::size_t(node)].children, {});
+  // What no scene shows, it does not show then either.
+  if (at != siblings.end()) siblings.insert(siblings.erase(at), heirs.begin(), heirs.end());
   return remove_nodes(scene, stay);
 }
 

@@ -1,5 +1,6 @@
 /// The commands of nodes.h that move nodes in the tree.
 #include <algorithm>
+#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -73,12 +74,16 @@ int group(Scene& scene, std::span<const int> nodes, std::string name) {
   }
   scene.nodes.emplace_back().name = std::move(name);
   scene.nodes.back().children.assign(nodes.begin(), nodes.end());
-  std::vector<int>& siblings = children_of(scene, parent);
-  std::ranges::replace(siblings, first, made);
+  std::vector<bool> moved(scene.nodes.size(), false);
+  std::set<int> old_parents;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     scene.nodes[std::size_t(nodes[i])].transform = transforms[i];
-    if (i > 0) take_out(children_of(scene, parents[std::size_t(nodes[i])]), nodes[i]);
+    if (nodes[i] != first) moved[std::size_t(nodes[i])] = true;
+    old_parents.insert(parents[std::size_t(nodes[i])]);
   }
+  std::ranges::replace(children_of(scene, parent), first, made);
+  for (const int old : old_parents)
+    std::erase_if(children_of(scene, old), [&](int node) { return moved[std::size_t(node)]; });
   return made;
 }
 
@@ -90,21 +95,32 @@ std::vector<int> ungroup(Scene& scene, int node) {
   return remove(scene, node, Removal::node_alone);
 }
 
-int duplicate(Scene& scene, int node) {
-  check_node(scene, node);
-  const int parent = find_parents(scene)[std::size_t(node)], made = int(scene.nodes.size());
-  const std::vector<int> originals = find_subtree(scene, node);
-  std::vector<int> copies(scene.nodes.size(), kNone);
-  for (std::size_t i = 0; i < originals.size(); ++i) copies[std::size_t(originals[i])] = made + int(i);
-  scene.nodes.reserve(scene.nodes.size() + originals.size());
-  for (const int original : originals) {
-    Node copy = scene.nodes[std::size_t(original)];
-    for (int& child : copy.children) child = copies[std::size_t(child)];
-    scene.nodes.push_back(std::move(copy));
+std::vector<int> duplicate(Scene& scene, std::span<const int> nodes) {
+  for (const int node : nodes) check_node(scene, node);
+  const std::size_t before = scene.nodes.size();
+  std::vector<int> made, copies(before, kNone);
+  for (const int node : find_topmost(scene, nodes)) {
+    const std::vector<int> originals = find_subtree(scene, node);
+    made.push_back(int(scene.nodes.size()));
+    for (std::size_t i = 0; i < originals.size(); ++i)
+      copies[std::size_t(originals[i])] = made.back() + int(i);
+    for (const int original : originals) {
+      Node copy = scene.nodes[std::size_t(original)];
+      for (int& child : copy.children) child = copies[std::size_t(child)];
+      scene.nodes.push_back(std::move(copy));
+    }
+    for (std::size_t i = 1; i < originals.size(); ++i) copies[std::size_t(originals[i])] = kNone;
   }
-  std::vector<int>& siblings = children_of(scene, parent);
-  const auto at = std::ranges::find(siblings, node);
-  if (at != siblings.end()) siblings.insert(at + 1, made);
+  // Those left are of the topmost. Where several are of one parent they stand together, behind the last.
+  const auto insert = [&](std::vector<int>& list) {
+    std::vector<int> added;
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (const int copy = copies[std::size_t(list[i])]; copy != kNone) added.push_back(copy), end = i + 1;
+    list.insert(list.begin() + std::ptrdiff_t(end), added.begin(), added.end());
+  };
+  insert(scene.roots);
+  for (std::size_t i = 0; i < before; ++i) insert(scene.nodes[i].children);
   return made;
 }
 

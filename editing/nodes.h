@@ -48,9 +48,11 @@ int group(Scene& scene, std::span<const int> nodes, std::string name);
 /// Returns the new index of each node; kNone for the group's.
 std::vector<int> ungroup(Scene& scene, int node);
 
-/// Copies the node and all below it. The copies share meshes, shapes, materials, cameras and lights. The new
-/// node stands behind the old one; returns its index.
-int duplicate(Scene& scene, int node);
+/// Copies the nodes and all below them; one that is below another of them is copied with that alone. The
+/// copies share meshes, shapes, materials, cameras and lights. Each new node stands behind the old one;
+/// returns their indices.
+std::vector<int> duplicate(Scene& scene, std::span<const int> nodes);
+inline int duplicate(Scene& scene, int node) { return duplicate(scene, {&node, 1})[0]; }
 
 enum class Removal : std::uint8_t {
   subtree,    // the node and all below it
@@ -60,6 +62,8 @@ enum class Removal : std::uint8_t {
 /// Removes a node; the others keep their order. What it alone used stays (see remove_unused()). Returns the
 /// new index of each node; kNone for what is gone.
 std::vector<int> remove(Scene& scene, int node, Removal removal = Removal::subtree);
+/// The same of several, each with all below it.
+std::vector<int> remove(Scene& scene, std::span<const int> nodes);
 
 /// Removes all meshes, shapes, cameras and lights that no node shows, and the materials, textures and images
 /// that nothing uses then. Returns how many elements are gone.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "editing/arguments.h"
 
@@ -56,6 +57,20 @@ std::vector<int> find_subtree(const Scene& scene, int node) {
     open.insert(open.end(), children.rbegin(), children.rend());
   }
   return found;
+}
+
+std::vector<int> find_topmost(const Scene& scene, std::span<const int> nodes) {
+  const std::vector<int> parents = find_parents(scene);
+  std::vector<char> left(scene.nodes.size(), false);
+  for (const int node : nodes) left[std::size_t(node)] = true;
+  std::vector<int> topmost;
+  for (const int node : nodes) {
+    int above = parents[std::size_t(node)];
+    while (above != kNone && !left[std::size_t(above)]) above = parents[std::size_t(above)];
+    if (above == kNone) topmost.push_back(node);
+  }
+  std::erase_if(topmost, [&](int node) { return !std::exchange(left[std::size_t(node)], false); });
+  return topmost;
 }
 
 Mat4d find_to_world(const Scene& scene, int node, const std::vector<int>& parents) {

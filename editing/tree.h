@@ -1,6 +1,7 @@
 /// The tree of nodes: who is below whom, and where. Depths are not bounded, so nothing here recurses.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -12,6 +13,9 @@ std::vector<int> find_parents(const Scene& scene);
 
 /// The node and all below it, parents first, children in their order.
 std::vector<int> find_subtree(const Scene& scene, int node);
+
+/// Those of the nodes, in their order and each once, that are below none of the others.
+std::vector<int> find_topmost(const Scene& scene, std::span<const int> nodes);
 
 /// The product of the transforms from the node, itself included, up to its root. kNone: the identity.
 Mat4d find_to_world(const Scene& scene, int node, const std::vector<int>& parents);

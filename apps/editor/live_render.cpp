@@ -98,9 +98,9 @@ std::optional<Pick> LiveRender::pick(const QPointF& pixel) const {
   return session ? session->pick(float(pixel.x()), float(pixel.y())) : std::nullopt;
 }
 
-Box3f LiveRender::bounds(int node) const {
+std::vector<Box3f> LiveRender::bounds(std::span<const int> nodes) const {
   const auto session = this->session();
-  return session ? session->node_bounds(node) : Box3f();
+  return session ? session->node_bounds(nodes) : std::vector<Box3f>(nodes.size());
 }
 
 LiveStatus LiveRender::status() const {

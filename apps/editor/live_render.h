@@ -13,7 +13,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include "apps/editor/view_camera.h"
 #include "renderer/session/session.h"
@@ -50,8 +52,9 @@ class LiveRender : public QObject {
   /// What is seen at a pixel; nothing where that is the environment or nothing is rendered yet. Indices of
   /// nodes are those of the document where it has not changed since.
   std::optional<Pick> pick(const QPointF& pixel) const;
-  /// Empty where there is nothing.
-  Box3f bounds(int node) const;
+  /// Of nodes with what is below them; empty where nothing is seen of them, or not yet.
+  std::vector<Box3f> bounds(std::span<const int> nodes) const;
+  Box3f bounds(int node) const { return bounds({&node, 1})[0]; }
   LiveStatus status() const;
 
  signals:

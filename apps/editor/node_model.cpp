@@ -60,39 +60,80 @@ NodeModel::NodeModel(Document& document, QObject* parent) : QAbstractItemModel(p
   connect(&document_, &Document::scene_replaced, this, &NodeModel::follow);
 }
 
+void NodeModel::search(const QString& text) {
+  if (text == searched_) return;
+  searched_ = text;
+  reset();
+}
+
+void NodeModel::reset() {
+  beginResetModel();
+  read_tree();
+  endResetModel();
+}
+
 void NodeModel::read_tree() {
   if (scene_) renumbered_ = find_again(*scene_, document_.scene());
   scene_ = document_.share();
   parents_ = edit::find_parents(*scene_);
-  rows_.assign(scene_->nodes.size(), 0);
+  find();
+  rows_.assign(scene_->nodes.size(), kNone);
   const auto number = [&](const std::vector<int>& list) {
     for (std::size_t i = 0; i < list.size(); ++i) rows_[std::size_t(list[i])] = int(i);
   };
-  number(scene_->roots);
-  for (const Node& node : scene_->nodes) number(node.children);
+  if (is_searching()) {
+    for (const auto& [node, list] : found_) number(list);
+  } else {
+    number(scene_->roots);
+    for (const Node& node : scene_->nodes) number(node.children);
+  }
+}
+
+void NodeModel::find() {
+  found_.clear();
+  if (!is_searching()) return;
+  std::vector<bool> shown(scene_->nodes.size(), false);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (node_label(*scene_, int(i)).contains(searched_, Qt::CaseInsensitive))
+      for (int node = int(i); node != kNone && !shown[std::size_t(node)]; node = parents_[std::size_t(node)])
+        shown[std::size_t(node)] = true;
+  const auto filter = [&](int parent) {
+    std::vector<int> list = edit::children_of(*scene_, parent);
+    std::erase_if(list, [&](int node) { return !shown[std::size_t(node)]; });
+    if (!list.empty()) found_[parent] = std::move(list);
+  };
+  filter(kNone);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (shown[i]) filter(int(i));
 }
 
 void NodeModel::follow() {
-  if (!same_tree(*scene_, document_.scene())) {
-    beginResetModel();
-    read_tree();
-    endResetModel();
-    return;
+  if (!same_tree(*scene_, document_.scene())) return reset();
+  const std::vector<Node>&before = scene_->nodes, &after = document_.scene().nodes;
+  std::vector<int> changed;
+  bool renamed = false;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const bool other_name = before[i].name != after[i].name;
+    renamed |= other_name;
+    if (other_name || before[i].visible != after[i].visible) changed.push_back(int(i));
   }
-  const std::shared_ptr<const Scene> before = std::exchange(scene_, document_.share());
-  for (std::size_t i = 0; i < scene_->nodes.size(); ++i) {
-    const Node &a = before->nodes[i], &b = scene_->nodes[i];
-    if (a.name != b.name || a.visible != b.visible)
-      emit dataChanged(index_of(int(i), kName), index_of(int(i), kVisible));
-  }
+  constexpr std::size_t kMost = 100;  // one by one
+  if ((renamed && is_searching()) || changed.size() > kMost) return reset();
+  scene_ = document_.share();
+  for (const int node : changed)
+    if (const QModelIndex row = index_of(node); row.isValid())
+      emit dataChanged(row, row.siblingAtColumn(kVisible));
 }
 
 const std::vector<int>& NodeModel::children(const QModelIndex& parent) const {
-  return edit::children_of(*scene_, node_at(parent));
+  if (!is_searching()) return edit::children_of(*scene_, node_at(parent));
+  static const std::vector<int> none;
+  const auto list = found_.find(node_at(parent));
+  return list == found_.end() ? none : list->second;
 }
 
 QModelIndex NodeModel::index_of(int node, int column) const {
-  if (node == kNone || std::size_t(node) >= rows_.size()) return {};
+  if (node == kNone || std::size_t(node) >= rows_.size() || rows_[std::size_t(node)] == kNone) return {};
   return createIndex(rows_[std::size_t(node)], column, quintptr(node));
 }
 
@@ -173,7 +214,7 @@ bool NodeModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int r
   const int target = node_at(parent);
   document_.edit(tr("Move in the tree"), [&](Scene& scene) {
     // Each in front of the sibling that stands at `row`, whose place moves as nodes are taken out before it.
-    const std::vector<int> list = edit::children_of(scene, target);
+    const std::vector<int> list = children(parent);
     int before = kNone;
     for (std::size_t i = std::size_t(std::max(0, row)); row >= 0 && i < list.size() && before == kNone; ++i)
       if (std::ranges::find(nodes, list[i]) == nodes.end()) before = list[i];

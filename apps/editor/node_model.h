@@ -1,9 +1,11 @@
 /// The tree of nodes as Qt's views see it: a name that can be edited, and whether the node is visible. Nodes
-/// dragged onto others become their children.
+/// dragged onto others become their children. Where very much changes all is made anew, since for thousands
+/// of rows that come, go or change one by one views take minutes.
 #pragma once
 
 #include <QAbstractItemModel>
 
+#include <unordered_map>
 #include <vector>
 
 #include "apps/editor/document.h"
@@ -18,7 +20,12 @@ class NodeModel : public QAbstractItemModel {
 
   explicit NodeModel(Document& document, QObject* parent = nullptr);
 
+  /// From now on only nodes whose label has that text in it, in capitals or not, and what is above them.
+  void search(const QString& text);
+  bool is_searching() const { return !searched_.isEmpty(); }
+
   int node_at(const QModelIndex& index) const { return index.isValid() ? int(index.internalId()) : kNone; }
+  /// Invalid where the node is not found by the search.
   QModelIndex index_of(int node, int column = kName) const;
   /// After a reset: the number that a node of before has now; kNone: it is gone.
   int renumbered(int node) const { return renumbered_[std::size_t(node)]; }
@@ -40,12 +47,17 @@ class NodeModel : public QAbstractItemModel {
  private:
   const std::vector<int>& children(const QModelIndex& parent) const;
   void follow();
+  void reset();
   void read_tree();
+  void find();
 
   Document& document_;
+  QString searched_;
   // Of the scene that the views know.
   std::shared_ptr<const Scene> scene_;
-  std::vector<int> parents_, rows_;
+  std::vector<int> parents_, rows_;  // rows: kNone where it is not shown
+  std::unordered_map<int, std::vector<int>>
+      found_;  // while searching: the children of each node that are shown
   std::vector<int> renumbered_;
 };
 

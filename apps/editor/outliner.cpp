@@ -6,6 +6,25 @@
 #include <algorithm>
 
 namespace parian::editor {
+namespace {
+
+/// Rows that follow each other as one range: Qt's views take very long over thousands of ranges.
+QItemSelection to_ranges(const QAbstractItemModel& model, const QMap<QModelIndex, QList<int>>& rows) {
+  QItemSelection ranges;
+  for (auto list = rows.begin(); list != rows.end(); ++list) {
+    QList<int> sorted = list.value();
+    std::ranges::sort(sorted);
+    for (auto first = sorted.begin(); first != sorted.end();) {
+      auto last = first;
+      while (std::next(last) != sorted.end() && *std::next(last) == *last + 1) ++last;
+      ranges.select(model.index(*first, 0, list.key()), model.index(*last, 0, list.key()));
+      first = std::next(last);
+    }
+  }
+  return ranges;
+}
+
+}  // namespace
 
 Outliner::Outliner(Document& document, QWidget* parent) : QTabWidget(parent), document_(document) {
   addTab(make_tree(), tr("Nodes"));
@@ -24,13 +43,9 @@ QWidget* Outliner::make_tree() {
   search->setPlaceholderText(tr("Search"));
   search->setClearButtonEnabled(true);
   nodes_ = new NodeModel(document_, this);
-  found_ = new QSortFilterProxyModel(this);
-  found_->setSourceModel(nodes_);
-  found_->setRecursiveFilteringEnabled(true);
-  found_->setFilterCaseSensitivity(Qt::CaseInsensitive);
   tree_ = new QTreeView(page);
   tree_->setObjectName("nodes");
-  tree_->setModel(found_);
+  tree_->setModel(nodes_);
   tree_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   tree_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
   tree_->setDragDropMode(QAbstractItemView::InternalMove);
@@ -38,19 +53,13 @@ QWidget* Outliner::make_tree() {
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(NodeModel::kName, QHeaderView::Stretch);
   tree_->header()->setSectionResizeMode(NodeModel::kVisible, QHeaderView::ResizeToContents);
-  connect(search, &QLineEdit::textChanged, this, [this](const QString& text) {
-    showing_ = true;  // what is not found stays selected
-    found_->setFilterFixedString(text);
-    showing_ = false;
-    expand_again();
-    show_selection();
-  });
+  connect(search, &QLineEdit::textChanged, nodes_, &NodeModel::search);
   connect(tree_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &Outliner::select_from_tree);
-  const auto node_of = [this](const QModelIndex& row) { return nodes_->node_at(found_->mapToSource(row)); };
-  connect(tree_, &QTreeView::expanded, this, [=, this](const QModelIndex& i) { expanded_ << node_of(i); });
+  connect(tree_, &QTreeView::expanded, this,
+          [this](const QModelIndex& i) { expanded_ << nodes_->node_at(i); });
   connect(tree_, &QTreeView::collapsed, this,
-          [=, this](const QModelIndex& i) { expanded_.remove(node_of(i)); });
-  connect(found_, &QAbstractItemModel::modelReset, this, [this] {
+          [this](const QModelIndex& i) { expanded_.remove(nodes_->node_at(i)); });
+  connect(nodes_, &QAbstractItemModel::modelReset, this, [this] {
     QSet<int> now;
     for (const int node : expanded_)
       if (const int place = nodes_->renumbered(node); place != kNone) now << place;
@@ -79,18 +88,18 @@ void Outliner::expand_first() {
 
 void Outliner::expand_again() {
   const QSignalBlocker quiet(tree_);
-  if (!found_->filterRegularExpression().pattern().isEmpty()) return tree_->expandAll();
+  if (nodes_->is_searching()) return tree_->expandAll();
   tree_->collapseAll();
-  for (const int node : expanded_) tree_->expand(found_->mapFromSource(nodes_->index_of(node)));
+  for (const int node : expanded_) tree_->expand(nodes_->index_of(node));
 }
 
 void Outliner::select_from_tree() {
   if (showing_) return;
   Selection selection{Selection::Kind::nodes, {}};
   for (const QModelIndex& row : tree_->selectionModel()->selectedRows())
-    selection.indices.push_back(nodes_->node_at(found_->mapToSource(row)));
+    selection.indices.push_back(nodes_->node_at(row));
   // The row with the cursor is the active one.
-  const int current = nodes_->node_at(found_->mapToSource(tree_->currentIndex()));
+  const int current = nodes_->node_at(tree_->currentIndex());
   const auto at = std::ranges::find(selection.indices, current);
   if (at != selection.indices.end()) std::rotate(at, at + 1, selection.indices.end());
   document_.select(selection.indices.empty() ? Selection{} : selection);
@@ -100,14 +109,18 @@ void Outliner::show_selection() {
   if (showing_) return;
   showing_ = true;
   const Selection& selection = document_.selection();
-  QItemSelection rows;
+  QMap<QModelIndex, QList<int>> rows;  // by parent
   QModelIndex last;
   if (selection.kind == Selection::Kind::nodes)
     for (const int node : selection.indices) {
-      last = found_->mapFromSource(nodes_->index_of(node));
-      if (last.isValid()) rows.select(last, last);
+      last = nodes_->index_of(node);
+      if (last.isValid()) rows[last.parent()] << last.row();
     }
-  tree_->selectionModel()->select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  // More would take seconds: then the active node alone is seen as selected.
+  constexpr int kMostRanges = 1000;
+  QItemSelection ranges = to_ranges(*nodes_, rows);
+  if (ranges.size() > kMostRanges) ranges = QItemSelection(last, last);
+  tree_->selectionModel()->select(ranges, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
   if (last.isValid()) {
     tree_->selectionModel()->setCurrentIndex(last, QItemSelectionModel::NoUpdate);
     tree_->scrollTo(last);

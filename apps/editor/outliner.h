@@ -4,7 +4,6 @@
 
 #include <QLineEdit>
 #include <QSet>
-#include <QSortFilterProxyModel>
 #include <QTabWidget>
 #include <QTreeView>
 
@@ -28,7 +27,6 @@ class Outliner : public QTabWidget {
 
   Document& document_;
   NodeModel* nodes_;
-  QSortFilterProxyModel* found_;
   QTreeView* tree_;
   QSet<int> expanded_;    // nodes, but for what a search expands
   bool showing_ = false;  // the selection of the document in the tree

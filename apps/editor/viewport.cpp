@@ -58,14 +58,11 @@ void Viewport::look_through(int node) {
 }
 
 void Viewport::frame_selection() {
-  const Scene& scene = document_.scene();
-  Box3f box;
   const Selection& selection = document_.selection();
   const bool some = selection.kind == Selection::Kind::nodes;
-  for (const int node : some ? selection.indices : scene.roots) {
-    box.extendBy(render_.bounds(node));
-    if (some && box.isEmpty()) box.extendBy(gizmo()->origin);
-  }
+  Box3f box;
+  for (const Box3f& b : render_.bounds(some ? selection.indices : document_.scene().roots)) box.extendBy(b);
+  if (some && box.isEmpty()) box.extendBy(gizmo()->origin);
   view_.frame(box, float(width()) / float(std::max(1, height())));
   view_changed();
 }

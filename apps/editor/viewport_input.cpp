@@ -21,19 +21,6 @@ bool is_fly_key(int key) {
          key == Qt::Key_E;
 }
 
-/// Those of the nodes that are below none of the others: what moves when all are moved.
-std::vector<int> topmost(const Scene& scene, const std::vector<int>& nodes) {
-  const std::vector<int> parents = edit::find_parents(scene);
-  std::vector<int> result;
-  for (const int node : nodes) {
-    bool covered = false;
-    for (int p = parents[std::size_t(node)]; p != kNone && !covered; p = parents[std::size_t(p)])
-      covered = std::ranges::find(nodes, p) != nodes.end();
-    if (!covered) result.push_back(node);
-  }
-  return result;
-}
-
 /// Moves nodes of `start` by a map of world space.
 void move_nodes(Scene& scene, const std::vector<int>& nodes, const Mat4d& by) {
   const std::vector<int> parents = edit::find_parents(scene);
@@ -59,7 +46,7 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
     handle_ = dragged_ && !focusing_ ? find_handle(*dragged_, projector(), to_vec(pressed_)) : Handle::none;
     if (handle_ != Handle::none) {
       action_ = Action::gizmo;
-      moved_ = topmost(document_.scene(), document_.selection().indices);
+      moved_ = edit::find_topmost(document_.scene(), document_.selection().indices);
     }
   }
 }

@@ -22,6 +22,18 @@ QColor color_of(Handle handle) {
   }
 }
 
+void draw_box(QPainter& painter, const Projector& seen, const Box3f& box) {
+  for (int corner = 0; corner < 8; ++corner)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (corner >> axis & 1) continue;
+      Vec3f a, b;
+      for (int i = 0; i < 3; ++i) a[i] = b[i] = corner >> i & 1 ? box.max[i] : box.min[i];
+      b[axis] = box.max[axis];
+      const auto from = seen.project(a), to = seen.project(b);
+      if (from && to) painter.drawLine(to_point(*from), to_point(*to));
+    }
+}
+
 }  // namespace
 
 void Viewport::paintEvent(QPaintEvent*) {
@@ -35,23 +47,21 @@ void Viewport::paintEvent(QPaintEvent*) {
 }
 
 void Viewport::draw_bounds(QPainter& painter) const {
-  if (document_.selection().kind != Selection::Kind::nodes) return;
-  const Projector seen = projector();
+  const Selection& selection = document_.selection();
+  if (selection.kind != Selection::Kind::nodes) return;
+  std::vector<Box3f> boxes = render_.bounds(selection.indices);  // that of the active node last
+  // Of very many one around all.
+  constexpr std::size_t kMost = 200;
+  if (boxes.size() > kMost) {
+    Box3f all;
+    for (const Box3f& box : boxes) all.extendBy(box);
+    boxes = {all, boxes.back()};
+  }
   painter.setRenderHint(QPainter::Antialiasing);
-  for (const int node : document_.selection().indices) {
-    const Box3f box = render_.bounds(node);
+  for (const Box3f& box : boxes) {
     if (box.isEmpty()) continue;
-    painter.setPen(
-        QPen(node == document_.selection().active() ? QColor(255, 170, 40) : QColor(200, 120, 30), 1));
-    for (int corner = 0; corner < 8; ++corner)
-      for (int axis = 0; axis < 3; ++axis) {
-        if (corner >> axis & 1) continue;
-        Vec3f a, b;
-        for (int i = 0; i < 3; ++i) a[i] = b[i] = corner >> i & 1 ? box.max[i] : box.min[i];
-        b[axis] = box.max[axis];
-        const auto from = seen.project(a), to = seen.project(b);
-        if (from && to) painter.drawLine(to_point(*from), to_point(*to));
-      }
+    painter.setPen(QPen(&box == &boxes.back() ? QColor(255, 170, 40) : QColor(200, 120, 30), 1));
+    draw_box(painter, projector(), box);
   }
 }
 

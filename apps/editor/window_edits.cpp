@@ -43,26 +43,14 @@ void MainWindow::with_nodes(const QString& name,
 }
 
 void MainWindow::remove_selected() {
-  with_nodes(tr("Delete"), [](Scene& scene, std::vector<int> nodes) {
-    // Each removal renumbers the others; what went with a parent is gone already.
-    while (!nodes.empty()) {
-      const int node = nodes.back();
-      nodes.pop_back();
-      if (node == kNone) continue;
-      const std::vector<int> places = edit::remove(scene, node);
-      for (int& other : nodes)
-        if (other != kNone) other = places[std::size_t(other)];
-    }
-  });
+  with_nodes(tr("Delete"), [](Scene& scene, const std::vector<int>& nodes) { edit::remove(scene, nodes); });
   document_.select({});
 }
 
 void MainWindow::duplicate_selected() {
   std::vector<int> copies;
-  with_nodes(tr("Duplicate"), [&](Scene& scene, const std::vector<int>& nodes) {
-    copies.clear();
-    for (const int node : nodes) copies.push_back(edit::duplicate(scene, node));
-  });
+  with_nodes(tr("Duplicate"),
+             [&](Scene& scene, const std::vector<int>& nodes) { copies = edit::duplicate(scene, nodes); });
   if (!copies.empty()) document_.select({Selection::Kind::nodes, copies});
 }
 

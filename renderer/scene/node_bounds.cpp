@@ -1,21 +1,28 @@
 #include "renderer/scene/node_bounds.h"
 
-#include <span>
+#include <ranges>
 
 namespace parian {
 namespace {
 
-std::vector<bool> find_subtree(const Scene& scene, int node) {
-  std::vector<bool> inside(scene.nodes.size(), false);
-  std::vector<int> open{node};
+struct Link {
+  int node, parent;
+};
+
+/// The nodes that are among those marked, or below one, parents before children.
+std::vector<Link> find_subtrees(const Scene& scene, const std::vector<bool>& marked) {
+  std::vector<Link> found, open;
+  for (const int root : scene.roots) open.push_back({root, kNone});
+  std::vector<bool> inside = marked;
   while (!open.empty()) {
-    const int index = open.back();
+    const Link link = open.back();
     open.pop_back();
-    inside[std::size_t(index)] = true;
-    const std::vector<int>& children = scene.nodes[std::size_t(index)].children;
-    open.insert(open.end(), children.begin(), children.end());
+    const bool covered = link.parent != kNone && inside[std::size_t(link.parent)];
+    if (covered) inside[std::size_t(link.node)] = true;
+    if (inside[std::size_t(link.node)]) found.push_back({link.node, covered ? link.parent : kNone});
+    for (const int child : scene.nodes[std::size_t(link.node)].children) open.push_back({child, link.node});
   }
-  return inside;
+  return found;
 }
 
 void extend(Box3f& bounds, const Box3f& box, const Affine& to_world) {
@@ -27,21 +34,31 @@ void extend(Box3f& bounds, const Box3f& box, const Affine& to_world) {
 
 }  // namespace
 
-Box3f subtree_bounds(const Scene& scene, const World& world, int node) {
-  const std::vector<bool> inside = find_subtree(scene, node);
-  Box3f result;
-  for (const Placement& p : world.placements) {
-    if (!inside[std::size_t(p.node)]) continue;
-    for (const Part& part : std::span(world.parts).subspan(p.first_part, p.part_count))
-      extend(result, part.bounds, p.to_world);
-  }
+std::vector<Box3f> subtree_bounds(const Scene& scene, const World& world, std::span<const int> nodes) {
+  const auto exists = [&](int node) { return node >= 0 && std::size_t(node) < scene.nodes.size(); };
+  std::vector<bool> marked(scene.nodes.size(), false);
+  for (const int node : nodes)
+    if (exists(node)) marked[std::size_t(node)] = true;
+  const std::vector<Link> subtrees = find_subtrees(scene, marked);
+  for (const Link& link : subtrees) marked[std::size_t(link.node)] = true;
+  // What each node draws itself, and then what those below it do.
+  std::vector<Box3f> boxes(scene.nodes.size());
+  for (const Placement& p : world.placements)
+    if (marked[std::size_t(p.node)])
+      for (const Part& part : std::span(world.parts).subspan(p.first_part, p.part_count))
+        extend(boxes[std::size_t(p.node)], part.bounds, p.to_world);
   for (const PlacedSolid& solid : world.solids)
-    if (inside[std::size_t(solid.node)]) result.extendBy(bounds(solid.solid, solid.to_world));
+    if (marked[std::size_t(solid.node)])
+      boxes[std::size_t(solid.node)].extendBy(bounds(solid.solid, solid.to_world));
   for (const AreaLight& light : world.area_lights)
-    if (inside[std::size_t(light.node)])
+    if (marked[std::size_t(light.node)])
       for (int corner = 0; corner < 4; ++corner)
-        result.extendBy(light.center + light.half_x * (corner & 1 ? 1 : -1) +
-                        light.half_y * (corner & 2 ? 1 : -1));
+        boxes[std::size_t(light.node)].extendBy(light.center + light.half_x * (corner & 1 ? 1 : -1) +
+                                                light.half_y * (corner & 2 ? 1 : -1));
+  for (const Link& link : subtrees | std::views::reverse)
+    if (link.parent != kNone) boxes[std::size_t(link.parent)].extendBy(boxes[std::size_t(link.node)]);
+  std::vector<Box3f> result;
+  for (const int node : nodes) result.push_back(exists(node) ? boxes[std::size_t(node)] : Box3f());
   return result;
 }
 

@@ -1,13 +1,17 @@
 /// Where the nodes of a scene are.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "renderer/scene/world.h"
 
 namespace parian {
 
-/// The bounds, in world space, of what a node and the nodes below it draw, area lights included; empty where
-/// they draw nothing. Of a mesh that is turned those of its box, which may be larger. `world` is that of the
-/// scene. Takes some milliseconds for a million placements.
-Box3f subtree_bounds(const Scene& scene, const World& world, int node);
+/// For each of the nodes the bounds, in world space, of what it and those below it draw, area lights
+/// included; empty where they draw nothing, and for a number that the scene has no node of. Of a mesh that is
+/// turned those of its box, which may be larger. `world` is that of the scene. Takes some milliseconds for a
+/// hundred thousand nodes, however many are asked for.
+std::vector<Box3f> subtree_bounds(const Scene& scene, const World& world, std::span<const int> nodes);
 
 }  // namespace parian

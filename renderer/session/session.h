@@ -8,7 +8,9 @@
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include "renderer/base/parallel.h"
 #include "renderer/film/filter.h"
@@ -133,8 +135,10 @@ class Session {
   /// What the centre of the lens sees at a point of the full picture: pixels from the top left, y down, a
   /// pixel's centre at .5. Nothing where that is the environment.
   std::optional<Pick> pick(float x, float y) const;
-  /// The bounds in world space of what a node and those below it draw; empty where there is nothing.
-  Box3f node_bounds(int node) const;
+  /// The bounds in world space of what each of the nodes and those below it draw; empty where there is
+  /// nothing, or the scene as it is rendered has no such node. All at once take little more time than one.
+  std::vector<Box3f> node_bounds(std::span<const int> nodes) const;
+  Box3f node_bounds(int node) const { return node_bounds({&node, 1})[0]; }
 
  private:
   using Clock = std::chrono::steady_clock;

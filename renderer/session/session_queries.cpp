@@ -29,9 +29,9 @@ std::optional<Pick> Session::pick(float x, float y) const {
   return pick;
 }
 
-Box3f Session::node_bounds(int node) const {
+std::vector<Box3f> Session::node_bounds(std::span<const int> nodes) const {
   const std::shared_lock lock(scene_mutex_);
-  return subtree_bounds(*scene_, *world_, node);
+  return subtree_bounds(*scene_, *world_, nodes);
 }
 
 }  // namespace parian
