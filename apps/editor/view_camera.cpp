@@ -40,6 +40,12 @@ void ViewCamera::look_through(const Camera& like, const Affine& to_world, float 
   target = to_world.origin + forward() * distance;
 }
 
+void ViewCamera::aim(float depth) {
+  const Vec3f from = eye();
+  distance = std::clamp(depth, kNearest, kFarthest);
+  target = from + forward() * distance;
+}
+
 float ViewCamera::metres_per_pixel(int height) const {
   const float half =
       camera.projection == Projection::perspective ? distance * std::tan(0.5f * camera.yfov) : camera.ymag;

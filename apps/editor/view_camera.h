@@ -26,6 +26,9 @@ class ViewCamera {
   /// Metres at the target that one pixel of a viewport so high covers.
   float metres_per_pixel(int height) const;
 
+  /// The target is so far ahead, in metres; nothing is seen of that.
+  void aim(float depth);
+
   // What the hand does, in pixels of a viewport `height` high; y is down.
   void orbit(float dx, float dy);            // about the target; stops at the poles
   void turn(float dx, float dy);             // the head: about the eye

@@ -1,6 +1,7 @@
 #include "apps/editor/viewport.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "editing/properties.h"
 #include "editing/tree.h"
@@ -54,7 +55,16 @@ void Viewport::look_through(int node) {
   const Camera& like = scene.cameras[std::size_t(camera)];
   view_.look_through(like, place, like.lens ? like.lens->focus_distance : view_.distance);
   looked_through_ = node;
+  aimed_ = false;
   view_changed();
+}
+
+/// The view turns about what is seen in its middle, and goes there. A camera of the scene does not say how
+/// far that is, and a head that turns looks at something else.
+void Viewport::aim() {
+  if (std::exchange(aimed_, true)) return;
+  const QPointF middle(0.5 * width(), 0.5 * height());
+  if (const auto pick = render_.pick(middle * devicePixelRatioF())) view_.aim(pick->depth);
 }
 
 void Viewport::frame_selection() {
@@ -64,6 +74,7 @@ void Viewport::frame_selection() {
   for (const Box3f& b : render_.bounds(some ? selection.indices : document_.scene().roots)) box.extendBy(b);
   if (some && box.isEmpty()) box.extendBy(gizmo()->origin);
   view_.frame(box, float(width()) / float(std::max(1, height())));
+  aimed_ = true;
   view_changed();
 }
 

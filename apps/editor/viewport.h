@@ -60,6 +60,7 @@ class Viewport : public QWidget {
   enum class Action { none, click, orbit, pan, look, dolly, gizmo };
   void show_status();
   void view_changed();
+  void aim();
   void fly();
   void drag_gizmo(const QPointF& to);
   void click(const QPointF& at, bool add);
@@ -71,6 +72,7 @@ class Viewport : public QWidget {
   LiveRender render_;
   ViewCamera view_;
   int looked_through_ = kNone;  // node
+  bool aimed_ = false;          // the view's target is where something is
   QImage frame_;
   GizmoMode gizmo_mode_ = GizmoMode::translate;
   bool local_axes_ = false, snapping_ = false, focusing_ = false;

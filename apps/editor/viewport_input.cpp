@@ -49,6 +49,7 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
       moved_ = edit::find_topmost(document_.scene(), document_.selection().indices);
     }
   }
+  if (action_ != Action::click && action_ != Action::gizmo && action_ != Action::none) aim();
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
@@ -71,6 +72,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
       break;
     case Action::look:
       view_.turn(float(moved.x()), float(moved.y()));
+      aimed_ = false;
       break;
     case Action::pan:
       view_.pan(float(moved.x()), float(moved.y()), height());
@@ -105,6 +107,7 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void Viewport::wheelEvent(QWheelEvent* event) {
+  aim();
   view_.dolly(float(event->angleDelta().y()) / 120);
   looked_through_ = kNone;
   view_changed();
@@ -151,6 +154,7 @@ void Viewport::fly() {
   };
   const Vec3f way(held(Qt::Key_D, Qt::Key_A), held(Qt::Key_E, Qt::Key_Q), held(Qt::Key_W, Qt::Key_S));
   view_.fly(way * (view_.distance * seconds));
+  aimed_ = false;
   looked_through_ = kNone;
   view_changed();
 }
