@@ -1,4 +1,5 @@
 // Commands on many nodes at once, against the same done one by one.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

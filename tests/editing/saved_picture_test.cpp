@@ -1,4 +1,5 @@
 // What is edited and saved renders the same picture, to the bit, as it does in the editor.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
