@@ -60,7 +60,8 @@ class InspectorRowsTest : public InspectorTest {
 TEST_F(InspectorRowsTest, OfMaterials) {
   const auto properties = [this] { return edit::material_properties(material(0)); };
   select(Kind::material, 0);
-  for (const std::string& type : edit::find_property(properties(), "type").choices) {
+  const std::vector<std::string> types = edit::find_property(properties(), "type").choices;
+  for (const std::string& type : types) {
     document_.edit("Type", [&](Scene& s) { edit::find_property(properties(), "type").set(s, 0, type); });
     turn_all_on(properties, 0);
     settle();
