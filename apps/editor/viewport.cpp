@@ -1,7 +1,6 @@
 #include "apps/editor/viewport.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "editing/properties.h"
 #include "editing/tree.h"
@@ -62,9 +61,12 @@ void Viewport::look_through(int node) {
 /// The view turns about what is seen in its middle, and goes there. A camera of the scene does not say how
 /// far that is, and a head that turns looks at something else.
 void Viewport::aim() {
-  if (std::exchange(aimed_, true)) return;
+  if (aimed_) return;
   const QPointF middle(0.5 * width(), 0.5 * height());
-  if (const auto pick = render_.pick(middle * devicePixelRatioF())) view_.aim(pick->depth);
+  const auto pick = render_.pick(middle * devicePixelRatioF());
+  if (!pick) return;
+  view_.aim(pick->depth);
+  aimed_ = true;
 }
 
 void Viewport::frame_selection() {

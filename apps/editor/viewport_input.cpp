@@ -2,7 +2,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 
-#include <algorithm>
+#include <utility>
 
 #include "apps/editor/viewport.h"
 #include "editing/nodes.h"

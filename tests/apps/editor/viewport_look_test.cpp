@@ -46,6 +46,21 @@ TEST_F(LookTest, Orbits) {
   }
 }
 
+TEST_F(LookTest, AimsAsSoonAsThereIsSomething) {
+  const auto is_seen = [this] { return viewport_.render().pick({160, 80}).has_value(); };
+  viewport_.render().set_paused(false);
+  drag(Qt::RightButton, {0, 80}, {523, 0});  // it looks behind itself
+  ASSERT_TRUE(wait_for([&] { return !is_seen(); }));
+  const float far = view().distance;
+  drag(Qt::MiddleButton, {100, 80}, {2, 0});
+  EXPECT_EQ(view().distance, far);
+  viewport_.set_view(start_);
+  ASSERT_TRUE(wait_for(is_seen));
+  const Vec3f turned_about = middle();
+  drag(Qt::MiddleButton, {100, 80}, {20, 0});
+  EXPECT_NEAR(distance(view().target, turned_about), 0, 1e-3);
+}
+
 TEST_F(LookTest, Pans) {
   const Vec3f point = middle();
   const QPoint at = to_pixel(point);
