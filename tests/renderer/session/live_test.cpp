@@ -99,6 +99,17 @@ TEST(LiveSession, BeautyIsThatOfTheSnapshot) {
       for (int k = 0; k < 3; ++k) ASSERT_EQ(beauty.at(x, y)[k], all.at(x, y)[k]);
 }
 
+/// A camera 5 m in front of the origin, which is in the middle of its picture; 10 pixels for a metre.
+RenderSettings look_from_the_front(Scene& scene) {
+  Camera camera;
+  camera.projection = Projection::orthographic;
+  camera.xmag = camera.ymag = 4;
+  add_camera(scene, camera, translate({0, 0, 5}));
+  RenderSettings settings;
+  settings.width = settings.height = 80;
+  return settings;
+}
+
 TEST(LiveSession, PickSaysWhatIsThere) {
   Scene scene;
   add_mesh(scene, make_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), add_material(scene, make_lambert(Rgb(1))));
@@ -106,12 +117,7 @@ TEST(LiveSession, PickSaysWhatIsThere) {
   Light light;
   light.kind = LightKind::rectangle;
   add_light(scene, light, look_along({-2, 0, 0}, {0, 0, 1}));
-  Camera camera;
-  camera.projection = Projection::orthographic;
-  camera.xmag = camera.ymag = 4;
-  add_camera(scene, camera, translate({0, 0, 5}));
-  RenderSettings settings;
-  settings.width = settings.height = 80;  // 10 pixels for a metre
+  RenderSettings settings = look_from_the_front(scene);
   Session session = make_session(scene, settings);
   session.start();
   const auto at = [&](float x, float y) { return session.pick(40 + 10 * x, 40 - 10 * y); };
@@ -155,12 +161,7 @@ TEST(LiveSession, PickKnowsShapesOfMovedAndScaledNodes) {
   group.children = {1, 2, 3};
   scene.roots.resize(1);
   add_root(scene, group);  // 4
-  Camera camera;
-  camera.projection = Projection::orthographic;
-  camera.xmag = camera.ymag = 4;
-  add_camera(scene, camera, translate({0, 0, 5}));
-  RenderSettings settings;
-  settings.width = settings.height = 80;  // 10 pixels for a metre
+  RenderSettings settings = look_from_the_front(scene);
   settings.accel.editable = true;
   Session session = make_session(scene, settings);
   for (int i = 1; i <= 3; ++i) {
